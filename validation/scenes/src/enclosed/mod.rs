@@ -13,6 +13,7 @@ pub(super) mod foreign;
 pub(super) mod gauges;
 mod geostatic;
 mod given;
+mod given_load;
 mod given_rate;
 mod inflow;
 mod lattice;
@@ -38,6 +39,7 @@ mod yields;
 
 pub use flow::{Dimension, SceneFlow, SceneStart};
 pub use given::PlainData;
+pub use given_load::GivenLoad;
 pub use given_rate::{GivenRate, TableEnds};
 pub use measure::{DepthGauge, Measurand, Opening, Probe};
 pub use measured::MeasuredSeries;
@@ -45,7 +47,6 @@ pub use observation::{FedMass, OutflowRecord, SceneObservation};
 pub use scene_case::SceneCase;
 pub use settling::BodyPreparation;
 pub use sides::DomainSide;
-pub use wall_load::GivenLoad;
 
 #[cfg(test)]
 use crate::case::{RunList, Tier};

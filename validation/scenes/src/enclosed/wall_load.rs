@@ -1,58 +1,18 @@
-//! Loads on walls, as a case file gives them, and what they are for the solver.
+//! Loads on walls for the solver, and their rules.
 
-use super::SceneFlow;
-use super::flow::Dimension;
+use super::flow::{Dimension, SceneFlow};
+use super::given_load::GivenLoad;
 use super::setting::{SceneBody, SceneWall, shown};
 use super::shapes;
 use super::sides::SceneSides;
 use crate::case::ParameterError;
-use bagnold_solver::parameter::{at_least, between, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::wall_load::WallLoad;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Rate of the damper in times that sound needs across the material below `[-]`: a critical one has 2.8.
 const USUAL_DAMPING: f64 = 2.0;
 /// Part of a table's way along the load, over the way, that is rounding `[-]`.
 const ROUNDING: f64 = 1e-9;
-
-/// Load on a wall, under which it moves freely along one direction.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "GivenLoad")]
-pub struct GivenLoad<P> {
-    /// Direction of the load and of the wall's motion, by its components, of any length `[-]`.
-    pub direction: P,
-    /// Pressure on the area of the wall across the direction and between the sides of the domain `[Pa]`; unless `force` is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = positive("give it in Pa; turn `direction` for a wall that is pulled"))]
-    pub pressure: Option<f64>,
-    /// Force `[N]`, in 2-D per metre of depth `[N/m]`; unless `pressure` is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = between(1e-12, 1e12, "give it in N, in 2-D in N/m; turn `direction` for a wall that is pulled"))]
-    pub force: Option<f64>,
-    /// Mass of the wall `[kg]`, in 2-D per metre of depth `[kg/m]`; half of that of the material below it where it is left out. Its weight is
-    /// not added to the load.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = between(1e-12, 1e12, "leave it out for half of the mass of the material below the wall"))]
-    pub mass: Option<f64>,
-    /// Rate of a damper of the wall `[1/s]`, which takes nothing at rest; twice the sound speed over the height of the material where it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = at_least(0.0, "0 for a wall that swings freely"))]
-    pub damping: Option<f64>,
-}
-
-impl<P> GivenLoad<P> {
-    /// The load with a vector for its direction.
-    pub(crate) fn with_vector<const D: usize>(&self) -> GivenLoad<Vector<D>>
-    where
-        P: Copy + Into<[f64; D]>,
-    {
-        let Self { direction, pressure, force, mass, damping } = *self;
-        GivenLoad { direction: Vector::<D>::from(direction.into()), pressure, force, mass, damping }
-    }
-}
 
 impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// The load of a wall for the solver.
