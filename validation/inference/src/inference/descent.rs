@@ -27,7 +27,6 @@ const SAME: f64 = 0.05;
 
 impl LocalMinimum {
     /// Whether it lies at a point, such as that of another minimum which is the same then.
-    #[must_use]
     pub fn is_at(&self, point: &[f64]) -> bool {
         largest_distance(&self.point, point) <= SAME
     }

@@ -9,7 +9,6 @@ const LEAST_FREEDOM: usize = 5;
 /// Places of residuals farther from their median than four robust standard deviations, with that distance over one of
 /// them; none with few data. The robust standard deviation is 1.4826 times the median distance from the median, enlarged
 /// by 1 + 4/ν for ν data beyond the parameters: of few data the middle half is often close together by chance.
-#[must_use]
 pub fn outliers(residuals: &[f64], parameters: usize) -> Vec<(usize, f64)> {
     let Some(freedom) = residuals.len().checked_sub(parameters).filter(|freedom| *freedom >= LEAST_FREEDOM) else {
         return Vec::new();

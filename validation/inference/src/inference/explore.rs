@@ -47,7 +47,6 @@ pub struct Explored {
 
 impl Explored {
     /// Whether the model has decided every end and the joint region.
-    #[must_use]
     pub fn is_settled(&self) -> bool {
         self.joint_settled && self.ends.iter().flatten().all(|end| end.settled)
     }

@@ -24,7 +24,6 @@ pub enum Loss {
 
 impl Loss {
     /// The number `[-]` whose square is the cost of a weighted residual, with its sign.
-    #[must_use]
     pub fn root(self, residual: f64) -> f64 {
         let size = residual.abs();
         match self {
@@ -34,7 +33,6 @@ impl Loss {
     }
 
     /// The weighted residual `[-]` that has a root.
-    #[must_use]
     pub fn residual(self, root: f64) -> f64 {
         let size = root.abs();
         match self {

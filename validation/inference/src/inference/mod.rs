@@ -58,7 +58,6 @@ fn largest_distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// χ² of weighted residuals `[-]`.
-#[must_use]
 pub fn chi_squared(residuals: &[f64]) -> f64 {
     residuals.iter().map(|residual| residual * residual).sum()
 }

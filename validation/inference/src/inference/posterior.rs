@@ -37,7 +37,6 @@ pub struct Posterior {
 }
 
 /// Samples the posterior of a region's emulator.
-#[must_use]
 pub fn sample(region: &Region, seed: u64) -> Posterior {
     let emulator = region.emulator();
     let mut random = Random::new(seed);
@@ -118,7 +117,6 @@ fn correlation_length(series: &[f64]) -> f64 {
 
 /// Quantiles of the model's weighted residuals over the samples `[-]`: the band of 95 % that the posterior predicts for each
 /// datum, as residuals at both ends.
-#[must_use]
 pub fn predictive(emulator: &Emulator, posterior: &Posterior) -> Vec<[f64; 2]> {
     let thinned = posterior.samples.iter().step_by((posterior.samples.len() / 400).max(1));
     let predicted: Vec<Vec<f64>> = thinned.map(|sample| emulator.predict(sample)).collect();

@@ -55,13 +55,11 @@ pub struct ProfileLikelihood {
 
 impl ProfileLikelihood {
     /// Whether both ends lie between the bounds.
-    #[must_use]
     pub fn is_closed(&self) -> bool {
         !self.open_below && !self.open_above
     }
 
     /// The values that agree, as intervals without the gaps between them, in rising order.
-    #[must_use]
     pub fn intervals(&self, which: usize) -> Vec<[f64; 2]> {
         let inner = self.gaps.iter().flatten().map(|edge| edge[which]);
         let ends: Vec<f64> = [self.interval[0]].into_iter().chain(inner).chain([self.interval[1]]).collect();
@@ -69,7 +67,6 @@ impl ProfileLikelihood {
     }
 
     /// Width from the least to the largest value, as a share of the range.
-    #[must_use]
     pub fn width(&self) -> f64 {
         self.interval[1] - self.interval[0]
     }

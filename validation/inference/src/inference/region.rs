@@ -64,7 +64,6 @@ pub struct Region {
 
 impl Region {
     /// The region of an emulator about its own minimum.
-    #[must_use]
     pub fn new(emulator: &Emulator, uncertainties: Uncertainties) -> Self {
         let mut region = Self::about(emulator, emulator.minimum(), uncertainties);
         region.draw();
@@ -72,7 +71,6 @@ impl Region {
     }
 
     /// The region about an evaluated point with the χ² that the model has there; its profiles have no curves yet.
-    #[must_use]
     pub fn about(emulator: &Emulator, minimum: LocalMinimum, uncertainties: Uncertainties) -> Self {
         let dimensions = emulator.dimensions();
         let freedom = emulator.data().checked_sub(dimensions).filter(|freedom| *freedom > 0);
@@ -105,7 +103,6 @@ impl Region {
     }
 
     /// The emulator that it rests on.
-    #[must_use]
     pub fn emulator(&self) -> &Emulator {
         &self.emulator
     }
@@ -122,52 +119,44 @@ impl Region {
     }
 
     /// The best point of the emulator with one parameter held, downhill from `start`.
-    #[must_use]
     pub fn held(&self, start: &[f64], which: usize, value: f64) -> ProfileLikelihoodPoint {
         self.along(which).held(start, value)
     }
 
     /// End of the interval on the emulator's profile along one parameter beyond a point, and whether it is at the bound.
-    #[must_use]
     pub fn end_beyond(&self, start: &[f64], which: usize, upper: bool) -> (Vec<f64>, bool) {
         let direction = if upper { 1.0 } else { -1.0 };
         self.along(which).crossing(start, direction, self.covariance[(which, which)].sqrt())
     }
 
     /// The best point outside of a parameter's intervals where the emulator agrees with the data too.
-    #[must_use]
     pub fn lead(&self, which: usize) -> Option<Vec<f64>> {
         self.along(which).lead(&self.profiles[which])
     }
 
     /// Rise of the emulator's χ² at a point `[-]`.
-    #[must_use]
     pub fn rise(&self, point: &[f64]) -> f64 {
         self.emulator.chi_squared(point) - self.base.chi_squared
     }
 
     /// Derivatives of the weighted residuals at the minimum, one row a datum, one column a parameter.
-    #[must_use]
     pub fn jacobian(&self) -> DMatrix<f64> {
         self.emulator.jacobian(&self.minimum.point)
     }
 
     /// Whether a point of the cube agrees with the data.
-    #[must_use]
     pub fn contains(&self, point: &[f64]) -> bool {
         self.rise(point) <= self.threshold
     }
 }
 
 /// χ² below which a share `confidence` of its distribution lies `[-]`; not a number without freedom.
-#[must_use]
 pub fn chi_squared_quantile(confidence: f64, freedom: usize) -> f64 {
     // rounded, since the library underneath takes logarithms from the platform
     ChiSquared::new(freedom as f64).map_or(f64::NAN, |distribution| rounded(distribution.inverse_cdf(confidence)))
 }
 
 /// Share of the distribution of χ² above a value `[-]`; not a number without freedom.
-#[must_use]
 pub fn chi_squared_tail(value: f64, freedom: usize) -> f64 {
     ChiSquared::new(freedom as f64).map_or(f64::NAN, |distribution| rounded(distribution.sf(value)))
 }

@@ -20,7 +20,6 @@ pub struct Score {
 
 /// Ranks choices, the best first, by name and weighted residuals `[-]`, one a datum in the same order for all, with `repeats`
 /// resamplings of the data points; none without choices or data, or where the choices do not have the same data.
-#[must_use]
 pub fn rank(choices: &[(String, Vec<f64>)], repeats: usize, seed: u64) -> Option<Vec<Score>> {
     let data = choices.first()?.1.len();
     if data == 0 || choices.iter().any(|(_, residuals)| residuals.len() != data) {

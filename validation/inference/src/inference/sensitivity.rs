@@ -27,7 +27,6 @@ pub struct Effect {
 }
 
 /// The points of all trajectories, one trajectory of `dimensions` + 1 points after the other.
-#[must_use]
 pub fn trajectories(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::new(seed);
     let mut points = Vec::new();

@@ -32,7 +32,6 @@ pub struct SerialCorrelation {
 
 /// Finds the correlation along series, each the places of its residuals in their order; none where white noise has as much in four
 /// of 100 experiments.
-#[must_use]
 pub fn serial_correlation(
     series: &[Vec<usize>],
     residuals: &[f64],

@@ -3,7 +3,6 @@
 use super::random::Random;
 
 /// All combinations of one number below `counts[k]` for each k, the last fastest.
-#[must_use]
 pub fn combinations(counts: &[usize]) -> Vec<Vec<usize>> {
     counts.iter().fold(vec![Vec::new()], |heads, &count| {
         let with = |head: &Vec<usize>| {
@@ -15,14 +14,12 @@ pub fn combinations(counts: &[usize]) -> Vec<Vec<usize>> {
 }
 
 /// All combinations of equally spaced levels, the last coordinate fastest; one level is the middle.
-#[must_use]
 pub fn full_grid(levels: &[usize]) -> Vec<Vec<f64>> {
     let coordinate = |(&level, &of): (&usize, &usize)| if of == 1 { 0.5 } else { level as f64 / (of - 1) as f64 };
     combinations(levels).iter().map(|point| point.iter().zip(levels).map(coordinate).collect()).collect()
 }
 
 /// A Latin hypercube: of `points` slices of every coordinate each holds one point, somewhere within.
-#[must_use]
 pub fn latin_hypercube(points: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::new(seed);
     let mut result = vec![vec![0.0; dimensions]; points];
@@ -38,7 +35,6 @@ pub fn latin_hypercube(points: usize, dimensions: usize, seed: u64) -> Vec<Vec<f
 
 /// The first points of a Sobol sequence, scrambled by Owen's method: evenly spread, and more may follow later. At most
 /// 65 536 points and 256 dimensions.
-#[must_use]
 pub fn sobol(points: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     // a short seed is taken as it is, of a longer one both halves count
     let seed = (seed ^ (seed >> 32)) as u32;

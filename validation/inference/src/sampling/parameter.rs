@@ -62,7 +62,6 @@ impl Bounds {
     }
 
     /// The value at a coordinate.
-    #[must_use]
     pub fn value(&self, coordinate: f64) -> f64 {
         let between = |lower: f64, upper: f64| lower + (upper - lower) * coordinate;
         match self.spacing {
@@ -72,7 +71,6 @@ impl Bounds {
     }
 
     /// The coordinate of a value; outside [0, 1] for a value outside the range.
-    #[must_use]
     pub fn coordinate(&self, value: f64) -> f64 {
         let share = |lower: f64, upper: f64, value: f64| (value - lower) / (upper - lower);
         match self.spacing {

@@ -45,7 +45,6 @@ pub struct Average {
 
 impl Average {
     /// The value with its standard error.
-    #[must_use]
     pub fn estimate(self) -> FittedValue {
         FittedValue { value: self.value, standard_error: self.standard_error }
     }
@@ -85,7 +84,6 @@ pub fn block_average(series: &[f64]) -> Result<Average, TooFewSamples> {
 
 /// A statistic of blocks in the order of time, and what is known of it. `statistic` gives the value of all blocks but
 /// those in a range.
-#[must_use]
 pub fn block_jackknife(blocks: usize, statistic: impl Fn(Range<usize>) -> f64) -> Average {
     let value = statistic(0..0);
     let n = blocks as f64;

@@ -46,13 +46,11 @@ pub struct BlockProfile {
 
 impl BlockProfile {
     /// An empty profile of `bins` bins of the height `bin` `[m]` from `bottom` `[m]`.
-    #[must_use]
     pub fn new(bottom: f64, bin: f64, bins: usize) -> Self {
         Self { bottom, bin, times: 0, sums: vec![vec![BinSums::default(); BLOCKS]; bins] }
     }
 
     /// A profile that is known without samples: the same in every block of time, so without a statistical error.
-    #[must_use]
     pub fn known(points: impl IntoIterator<Item = ProfilePoint>) -> Self {
         let sums: Vec<Vec<BinSums>> = points
             .into_iter()
@@ -79,20 +77,17 @@ impl BlockProfile {
     }
 
     /// The block of time at `share` of the averaging window, 0 … 1.
-    #[must_use]
     pub fn block(share: f64) -> usize {
         ((share * BLOCKS as f64).max(0.0) as usize).min(BLOCKS - 1)
     }
 
     /// The bin that a height `[m]` lies in; none outside of the bins.
-    #[must_use]
     pub fn bin_at(&self, height: f64) -> Option<usize> {
         let bin = ((height - self.bottom) / self.bin).floor();
         (bin >= 0.0 && bin < self.sums.len() as f64).then_some(bin as usize)
     }
 
     /// The bins that hold samples, from below.
-    #[must_use]
     pub fn points(&self) -> Vec<ProfilePoint> {
         self.points_without(0..0)
     }
@@ -102,7 +97,6 @@ impl BlockProfile {
     }
 
     /// Velocity of every bin that holds samples, from below, with its statistical error `[m/s]`.
-    #[must_use]
     pub fn velocities(&self) -> Vec<FittedValue> {
         let filled = self.sums.iter().filter(|blocks| mean_without(blocks, &(0..0)).is_some());
         filled
@@ -114,7 +108,6 @@ impl BlockProfile {
     }
 
     /// A statistic of the whole profile with its statistical error.
-    #[must_use]
     pub fn estimate(&self, statistic: impl Fn(&[ProfilePoint]) -> f64) -> FittedValue {
         block_jackknife(BLOCKS, |left_out| statistic(&self.points_without(left_out))).estimate()
     }

@@ -14,7 +14,6 @@ pub struct LinearFit {
 }
 
 /// The least-squares line through points (x, y); none for fewer than two distinct x.
-#[must_use]
 pub fn linear_fit(points: &[(f64, f64)]) -> Option<LinearFit> {
     let n = points.len() as f64;
     let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / n;
@@ -43,7 +42,6 @@ pub struct FittedValue {
 
 /// The slope that groups of points (x, y) share, each group with an intercept of its own; none without two distinct x in
 /// a group and one point more than there are intercepts and slope.
-#[must_use]
 pub fn common_slope(groups: &[Vec<(f64, f64)>]) -> Option<FittedValue> {
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     for points in groups {
@@ -74,7 +72,6 @@ pub struct Exponent {
 }
 
 /// The power law through points of positive coordinates, by least squares of the logarithms; none with fewer than two.
-#[must_use]
 pub fn power_law(points: &[(f64, f64)]) -> Option<Exponent> {
     if points.iter().any(|(x, y)| !(*x > 0.0 && *y > 0.0)) {
         return None;
@@ -85,7 +82,6 @@ pub fn power_law(points: &[(f64, f64)]) -> Option<Exponent> {
 }
 
 /// Slope of the line through (ln x, ln y); none where a value is not positive.
-#[must_use]
 pub fn log_log_slope(points: &[(f64, f64)]) -> Option<f64> {
     power_law(points).map(|law| law.value)
 }

@@ -29,7 +29,6 @@ pub struct Mean {
 
 impl Mean {
     /// The mean of repeated runs; none without runs.
-    #[must_use]
     pub fn of(resolution: usize, values: &[f64]) -> Option<Self> {
         let n = values.len() as f64;
         let value = values.iter().sum::<f64>() / n;
@@ -77,7 +76,6 @@ pub struct GridConvergence {
 }
 
 /// The index of means in ascending resolution; none for fewer than three or if the resolutions do not ascend.
-#[must_use]
 pub fn grid_convergence(means: &[Mean]) -> Option<GridConvergence> {
     let fine = means.last().filter(|_| means.len() >= 3)?;
     if !means.windows(2).all(|pair| pair[0].resolution < pair[1].resolution) {

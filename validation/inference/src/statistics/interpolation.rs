@@ -13,7 +13,6 @@ pub enum Extrapolation {
 
 /// The value at a place, straight between points of rising abscissa; [`Extrapolation`] before the first and after the last. None beside a
 /// point without a finite value.
-#[must_use]
 pub fn interpolated(points: &[(f64, f64)], place: f64, (before, after): (Extrapolation, Extrapolation)) -> Option<f64> {
     let next = points.partition_point(|point| point.0 < place);
     if let Some(&(x, y)) = points.get(next)

@@ -1,13 +1,11 @@
 //! Means, and how far values are from what they should be.
 
 /// Mean of values; not a number of none.
-#[must_use]
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// √(Σ (value − exact)²/Σ exact²) of pairs (value, exact) `[-]`.
-#[must_use]
 pub fn relative_l2(pairs: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     let (error, scale) = pairs.into_iter().fold((0.0, 0.0), |(error, scale), (value, exact)| {
         (error + (value - exact) * (value - exact), scale + exact * exact)

@@ -70,7 +70,6 @@ const FEWEST: usize = 3;
 
 impl ModelBias {
     /// σ_M `[-]`, where it can be told.
-    #[must_use]
     pub fn model_deviation(&self) -> Option<f64> {
         match self.deviation {
             Deviation::Known { model, .. } => Some(model),
@@ -80,14 +79,12 @@ impl ModelBias {
 
     /// Bounds of the ratio M/E of a further comparison with 95 % confidence `[-]`: Student's factor in place of 2, and the
     /// uncertainty of the bias with it, so that a few comparisons are reported with an interval of due width.
-    #[must_use]
     pub fn next_ratio(&self) -> (f64, f64) {
         self.next_ratio_beside(0.0)
     }
 
     /// The same of a comparison that has a relative standard uncertainty `[-]` beside, of which the scatter does not know, such as that of
     /// inputs which all comparisons of an experiment have in common.
-    #[must_use]
     pub fn next_ratio_beside(&self, uncertainty: f64) -> (f64, f64) {
         let n = self.comparisons as f64;
         let (lower, upper) = self.interval;
@@ -109,7 +106,6 @@ impl ModelBias {
 }
 
 /// Bias and scatter of some comparisons; none for fewer than three, or where a value is not positive and so has no ratio.
-#[must_use]
 pub fn model_bias(comparisons: &[Comparison]) -> Option<ModelBias> {
     let has_ratio =
         |of: &Comparison| of.predicted > 0.0 && of.measured > 0.0 && (of.predicted / of.measured).is_finite();

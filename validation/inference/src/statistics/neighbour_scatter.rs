@@ -5,7 +5,6 @@
 ///
 /// With the weights w and 1 − w of the neighbours that distance has the variance σ² (1 + w² + (1 − w)²). A curve's own bend
 /// between neighbours counts as scatter, so that it is an upper bound.
-#[must_use]
 pub fn neighbour_scatter(points: &[(f64, f64)]) -> Option<f64> {
     let square = |three: &[(f64, f64)]| {
         let [(x0, y0), (x, y), (x1, y1)] = [three[0], three[1], three[2]];

@@ -2,7 +2,6 @@
 
 /// The value below which a share of a sorted list lies, between neighbours in proportion; not a number in an empty
 /// list.
-#[must_use]
 pub fn percentile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
     let place = share * last as f64;

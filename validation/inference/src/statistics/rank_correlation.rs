@@ -2,7 +2,6 @@
 
 /// Spearman's rank correlation of pairs: Pearson's coefficient of their ranks, equal values sharing the mean of theirs.
 /// `None` for fewer than three pairs, values that are no numbers, or where all values of one quantity are equal.
-#[must_use]
 pub fn rank_correlation(pairs: &[(f64, f64)]) -> Option<f64> {
     if pairs.len() < 3 || pairs.iter().any(|(a, b)| !a.is_finite() || !b.is_finite()) {
         return None;

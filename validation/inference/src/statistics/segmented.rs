@@ -24,7 +24,6 @@ const SWEEPS: usize = 3;
 const HALVINGS: usize = 6;
 
 /// The best continuous fit with a number of pieces to points (x, y) of rising x; none without three points a piece.
-#[must_use]
 pub fn segmented_regression(points: &[(f64, f64)], pieces: usize) -> Option<Segmented> {
     let needed = LEAST_POINTS * pieces;
     if pieces == 0 || points.len() < needed.max(pieces + 2) {
@@ -104,7 +103,6 @@ fn hinges(points: &[(f64, f64)], breaks: &[f64]) -> Option<(f64, Vec<f64>)> {
 
 /// Number of pieces, up to `most`, whose fit has the least Bayesian information criterion n ln(RSS/n) + k ln n; every
 /// break counts for its place and its change of slope.
-#[must_use]
 pub fn number_of_pieces(points: &[(f64, f64)], most: usize) -> usize {
     let count = points.len() as f64;
     let criterion = |pieces: usize| {
@@ -121,7 +119,6 @@ pub fn number_of_pieces(points: &[(f64, f64)], most: usize) -> usize {
 }
 
 /// Second derivative of the parabola through points (x, y), unit of y over that of x²; none for fewer than four.
-#[must_use]
 pub fn curvature(points: &[(f64, f64)]) -> Option<f64> {
     if points.len() < 4 {
         return None;

@@ -18,7 +18,6 @@ static COEFFICIENTS: LazyLock<[f64; 4]> = LazyLock::new(|| {
 });
 
 /// Critical Shields number τ*_c `[-]` at a dimensionless diameter D* = d ((s − 1) g/ν²)^⅓ `[-]`.
-#[must_use]
 pub fn critical_shields_number(dimensionless_diameter: f64) -> f64 {
     let [a, b, c, e] = *COEFFICIENTS;
     a / (1.0 + b * dimensionless_diameter) + c * (1.0 - libm::exp(-e * dimensionless_diameter))

@@ -42,7 +42,6 @@ impl MeasuredBedLoad {
     pub const ALL: [Self; 2] = [Self::GrainSimulation, Self::SheetFlow];
 
     /// Its name in results.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::GrainSimulation => "grain-simulation",
@@ -59,7 +58,6 @@ impl MeasuredBedLoad {
     }
 
     /// Its stream, over a bed of ten grains.
-    #[must_use]
     pub fn stream(self) -> Stream {
         let water = |slope, flow_depth, grain_density, grain_diameter| Stream {
             slope,
@@ -81,7 +79,6 @@ impl MeasuredBedLoad {
     }
 
     /// Its profiles.
-    #[must_use]
     pub fn profiles(self) -> BedLoadProfiles {
         let level = self.level();
         let points = |table: &MeasuredData, name: &str| -> Result<HeightProfile, FieldError> {

@@ -21,14 +21,12 @@ pub struct Flume {
 
 impl Flume {
     /// Hydraulic radius R = b h/(b + 2 h) `[m]`.
-    #[must_use]
     pub fn hydraulic_radius(&self) -> f64 {
         self.width * self.depth / (self.width + 2.0 * self.depth)
     }
 
     /// The bed's part of the shear stress after Vanoni & Brooks, τ_b/(ρ g h S) `[-]`, at a gravity `[m/s²]` and a kinematic viscosity
     /// `[m²/s]`; between 0 and 1.
-    #[must_use]
     pub fn bed_share(&self, gravity: f64, viscosity: f64) -> f64 {
         let radius = self.hydraulic_radius();
         let whole = 8.0 * gravity * radius * self.slope / (self.velocity * self.velocity);
@@ -38,7 +36,6 @@ impl Flume {
     }
 
     /// The bed's part of the shear stress where bed and walls are equally smooth `[-]`: second approximation of Guo & Julien.
-    #[must_use]
     pub fn smooth_bed_share(&self) -> f64 {
         let ratio = self.depth / self.width;
         4.0 / PI * libm::atan(libm::exp(-PI * ratio)) + 0.25 * PI * ratio * libm::exp(-ratio)

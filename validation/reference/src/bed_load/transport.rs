@@ -44,7 +44,6 @@ const FEWEST_RUNS: usize = 10;
 
 /// Band of the measured rates of the runs within a factor of 1.3 of a Shields number `[-]`, each over Wong & Parker's 1.6 form `[-]`;
 /// none of too few.
-#[must_use]
 pub fn measured_rates_about(shields_number: f64) -> Option<MeasuredBand> {
     let range = shields_number / SAME_SHIELDS..=shields_number * SAME_SHIELDS;
     MeasuredBand::of(measured_ratios(|shields| range.contains(&shields)), FEWEST_RUNS)
@@ -52,7 +51,6 @@ pub fn measured_rates_about(shields_number: f64) -> Option<MeasuredBand> {
 
 /// Rates of the measured runs within a factor of 1.3 of a Shields number `[-]`, or with too few of them of all well above the threshold,
 /// each over Wong & Parker's 1.6 form `[-]`.
-#[must_use]
 pub fn measured_scatter(shields_number: f64) -> Vec<f64> {
     let range = shields_number / SAME_SHIELDS..=shields_number * SAME_SHIELDS;
     let about: Vec<f64> = measured_ratios(|shields| range.contains(&shields)).collect();
@@ -60,7 +58,6 @@ pub fn measured_scatter(shields_number: f64) -> Vec<f64> {
 }
 
 /// Least and largest grain diameter `[m]` and slope `[-]` of the measured runs.
-#[must_use]
 pub fn measured_grains() -> [(f64, f64); 2] {
     let range = |values: &[f64], unit: f64| {
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -114,7 +111,6 @@ impl TransportFormula {
         [Self::MeyerPeterMuller, Self::WongParker, Self::WongParkerThreeHalves, Self::Ribberink, Self::FernandezLuque];
 
     /// Coefficient c `[-]`, critical Shields number τ*_c `[-]` and exponent n `[-]`.
-    #[must_use]
     pub fn parameters(self) -> (f64, f64, f64) {
         let row = self.row();
         (row.coefficient, row.critical, row.exponent)
@@ -136,7 +132,6 @@ impl TransportFormula {
     }
 
     /// Transport rate q* `[-]` at a Shields number τ* `[-]`.
-    #[must_use]
     pub fn transport(self, shields_number: f64) -> f64 {
         let (coefficient, critical, exponent) = self.parameters();
         let excess = shields_number - critical;
@@ -144,19 +139,16 @@ impl TransportFormula {
     }
 
     /// Authors, year and formula.
-    #[must_use]
     pub fn name(self) -> &'static str {
         &self.row().source
     }
 
     /// Kind of reference.
-    #[must_use]
     pub fn origin(self) -> ReferenceKind {
         self.row().origin
     }
 
     /// Confidence in the formula: read in two or more documents, or in one besides the coefficients.
-    #[must_use]
     pub fn confidence(self) -> Confidence {
         self.row().confidence
     }

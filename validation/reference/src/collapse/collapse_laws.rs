@@ -46,7 +46,6 @@ impl CollapseLawSource {
     ///
     /// # Panics
     /// If there is none; the tables are part of the program, and a test looks up every author.
-    #[must_use]
     pub fn law(self, laws: &[CollapseLaw]) -> &CollapseLaw {
         let name = match self {
             Self::Lube => "Lube",
@@ -117,14 +116,12 @@ impl CollapseLaws {
 
 impl CollapseLaw {
     /// The law's value at an aspect ratio; none in its gaps.
-    #[must_use]
     pub fn value(&self, aspect_ratio: f64) -> Option<f64> {
         let branch = self.branches.iter().find(|branch| aspect_ratio >= branch.from && aspect_ratio < branch.to)?;
         Some(branch.coefficient * libm::pow(aspect_ratio, branch.exponent))
     }
 
     /// The law's value at an aspect ratio in words, or the gap in which it has none.
-    #[must_use]
     pub fn in_words(&self, aspect_ratio: f64) -> String {
         if let Some(value) = self.value(aspect_ratio) {
             return format!("{} {value:.2}", self.source);
@@ -138,7 +135,6 @@ impl CollapseLaw {
     }
 
     /// Points of its branches in the drawn range, branch by branch.
-    #[must_use]
     pub fn curves(&self) -> Vec<Vec<(f64, f64)>> {
         let curve = |branch: &Branch| {
             let (from, to) = (branch.from.max(DRAWN.0), branch.to.min(DRAWN.1));

@@ -75,7 +75,6 @@ impl MeasuredPile {
     }
 
     /// Front position of its surface at a thickness `[m]`, linear between its points `[m]`.
-    #[must_use]
     pub fn front(&self, thickness: f64) -> f64 {
         let below = self.surface.windows(2).find(|pair| pair[0].1 >= thickness && pair[1].1 < thickness);
         below.map_or(f64::NAN, |pair| {
@@ -85,14 +84,12 @@ impl MeasuredPile {
     }
 
     /// Standard uncertainty of that place from the reading: over the slope of the toe, a line through its last four points `[m]`.
-    #[must_use]
     pub fn front_reading(&self) -> f64 {
         let toe = &self.surface[self.surface.len().saturating_sub(4)..];
         crate::statistics::linear_fit(toe).map_or(f64::NAN, |line| self.reading / line.slope.abs())
     }
 
     /// Area under its surface over that of the pile at first, less 1 `[-]`: how far heights are off as a whole.
-    #[must_use]
     pub fn excess(&self) -> f64 {
         let first = self.surface.first().map_or(0.0, |point| point.0 * point.1);
         let area: f64 =
@@ -121,7 +118,6 @@ impl MeasuredRunOuts {
     }
 
     /// The run-out between the points, straight in logarithms `[-]`; none outside of them.
-    #[must_use]
     pub fn at(&self, aspect_ratio: f64) -> Option<f64> {
         let logarithms: Vec<(f64, f64)> = self.points.iter().map(|(a, x)| (libm::log(*a), libm::log(*x))).collect();
         interpolated(&logarithms, libm::log(aspect_ratio), (Extrapolation::Nothing, Extrapolation::Nothing))

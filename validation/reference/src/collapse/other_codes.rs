@@ -88,7 +88,6 @@ impl OtherCodes {
 
     /// Mean over the codes at a time over √(h_0/g), and its standard uncertainty: the codes' own, or how far they are from it where
     /// that is more `[-]`. None where no code tells.
-    #[must_use]
     pub fn at(&self, flow: f64, quantity: CodeQuantity, time: f64) -> Option<(f64, f64)> {
         let at_time = |series: &CodeSeries| series.points.iter().find(|point| point.0 == time).copied();
         let points: Vec<(f64, f64, f64)> = self.of(flow, quantity).filter_map(at_time).collect();

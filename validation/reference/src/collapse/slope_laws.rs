@@ -31,7 +31,6 @@ pub static SLOPE_EXPERIMENT: LazyLock<SlopeExperiment> = LazyLock::new(|| {
 
 /// Displacement of the front of a collapse on a slope, x_f = h_0 · 2k/(tanδ − tanθ), with friction tanδ and a
 /// coefficient k (Mangeney et al. 2010, as two later works quote it). None from θ = δ on: no deposit.
-#[must_use]
 pub fn slope_run_out(initial_height: f64, slope_angle: f64, friction: f64, k: f64) -> Option<f64> {
     let excess = friction - libm::tan(slope_angle);
     (excess > 0.0).then(|| initial_height * 2.0 * k / excess)
@@ -50,7 +49,6 @@ pub struct RoughIncline {
 
 impl RoughIncline {
     /// The incline under the glass beads of Table 1.
-    #[must_use]
     pub fn of_glass_beads() -> Self {
         let law = GLASS_BEADS.law;
         Self {
@@ -61,7 +59,6 @@ impl RoughIncline {
     }
 
     /// Thickness h_stop(θ) `[m]` of the deposit that a steady flow leaves; none outside of μ_s < tanθ < μ_2.
-    #[must_use]
     pub fn deposit_thickness(&self, slope_angle: f64) -> Option<f64> {
         let tangent = libm::tan(slope_angle);
         (tangent > self.static_friction && tangent < self.limiting_friction)
@@ -69,7 +66,6 @@ impl RoughIncline {
     }
 
     /// Angle `[rad]` at which a deposit of a given thickness `[m]` stops: h_stop solved for θ.
-    #[must_use]
     pub fn stopping_angle(&self, thickness: f64) -> f64 {
         let (l, h) = (self.length_scale, thickness);
         libm::atan((l * self.limiting_friction + h * self.static_friction) / (l + h))
@@ -77,7 +73,6 @@ impl RoughIncline {
 
     /// Thickness `[m]` of the flow of a collapse from a height h_0 `[m]`, (44) as reconstructed:
     /// h_s = h_0^{3/5} [L (μ_2 − tanθ)/(tanθ − μ_s)]^{2/5}.
-    #[must_use]
     pub fn flow_thickness(&self, initial_height: f64, slope_angle: f64) -> Option<f64> {
         let deposit = self.deposit_thickness(slope_angle)?;
         Some(libm::pow(initial_height, 0.6) * libm::pow(deposit, 0.4))

@@ -31,13 +31,11 @@ impl EddyFilm {
     }
 
     /// Shear rate `[1/s]` at a height `[m]`.
-    #[must_use]
     pub fn shear_rate(&self, height: f64) -> f64 {
         2.0 * self.incline.shear_stress(height) / (self.viscosity + self.root(height))
     }
 
     /// Velocity `[m/s]` at a height `[m]`.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         let (bed, here, inertia) = (self.root(0.0), self.root(height), self.eddy_inertia());
         // (bed − here), of the differences of squares and cubes, without cancellation
@@ -49,7 +47,6 @@ impl EddyFilm {
     }
 
     /// Flux `[m²/s]`, ∫ γ̇ (h − y) dy by Simpson's rule.
-    #[must_use]
     pub fn flux(&self) -> f64 {
         const CELLS: usize = 200;
         let (thickness, cell) = (self.incline.layer_height, self.incline.layer_height / CELLS as f64);

@@ -19,13 +19,11 @@ pub struct Incline {
 
 impl Incline {
     /// G = ρ g sinθ `[Pa/m]`, the weight along the slope that shear has to carry.
-    #[must_use]
     pub fn driving_force(&self) -> f64 {
         self.density * self.gravity * libm::sin(self.inclination)
     }
 
     /// Shear stress G (h − y) `[Pa]` at a height `[m]` above the bed.
-    #[must_use]
     pub fn shear_stress(&self, height: f64) -> f64 {
         self.driving_force() * (self.layer_height - height)
     }
@@ -48,13 +46,11 @@ pub struct NewtonianFilm {
 
 impl NewtonianFilm {
     /// Velocity u = (G/μ)(h y − y²/2) `[m/s]` at a height `[m]`.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         self.incline.driving_force() / self.viscosity * (self.incline.layer_height * height - 0.5 * height * height)
     }
 
     /// Flux G h³/(3μ) `[m²/s]`.
-    #[must_use]
     pub fn flux(&self) -> f64 {
         let thickness = self.incline.layer_height;
         self.incline.driving_force() * thickness * thickness * thickness / (3.0 * self.viscosity)
@@ -74,19 +70,16 @@ pub struct BinghamFilm {
 
 impl BinghamFilm {
     /// Height Y = h − τ_y/G `[m]` above which the film moves as a plug.
-    #[must_use]
     pub fn plug_edge(&self) -> f64 {
         self.incline.plug_edge(self.yield_stress)
     }
 
     /// Velocity U = G Y²/(2μ) `[m/s]` of the plug.
-    #[must_use]
     pub fn plug_velocity(&self) -> f64 {
         self.incline.driving_force() * self.plug_edge() * self.plug_edge() / (2.0 * self.plastic_viscosity)
     }
 
     /// Velocity `[m/s]` at a height `[m]`: U [1 − ((y − Y)/Y)²] below Y, U above.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         let edge = self.plug_edge();
         if height >= edge {
@@ -97,7 +90,6 @@ impl BinghamFilm {
     }
 
     /// Flux U (h − Y/3) `[m²/s]`.
-    #[must_use]
     pub fn flux(&self) -> f64 {
         self.plug_velocity() * (self.incline.layer_height - self.plug_edge() / 3.0)
     }
@@ -118,13 +110,11 @@ pub struct HerschelBulkleyFilm {
 
 impl HerschelBulkleyFilm {
     /// Height Y = h − τ_y/G `[m]` above which the film moves as a plug.
-    #[must_use]
     pub fn plug_edge(&self) -> f64 {
         self.incline.plug_edge(self.yield_stress)
     }
 
     /// Velocity u_p = n/(n+1) (G/K)^{1/n} Y^{1+1/n} `[m/s]` of the plug.
-    #[must_use]
     pub fn plug_velocity(&self) -> f64 {
         let (edge, index) = (self.plug_edge(), self.flow_index);
         if edge == 0.0 {
@@ -134,7 +124,6 @@ impl HerschelBulkleyFilm {
     }
 
     /// Velocity `[m/s]` at a height `[m]`: u_p [1 − (1 − y/Y)^{1+1/n}] below Y, u_p above.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         let edge = self.plug_edge();
         if height >= edge {
@@ -144,7 +133,6 @@ impl HerschelBulkleyFilm {
     }
 
     /// Flux u_p [h − n Y/(2n+1)] `[m²/s]`.
-    #[must_use]
     pub fn flux(&self) -> f64 {
         let index = self.flow_index;
         self.plug_velocity() * (self.incline.layer_height - index * self.plug_edge() / (2.0 * index + 1.0))

@@ -23,7 +23,6 @@ pub struct LawFilm {
 
 impl LawFilm {
     /// Shear rate `[1/s]` at a height `[m]`: 0 where the law carries the stress at rest, ∞ where no rate carries it.
-    #[must_use]
     pub fn shear_rate(&self, height: f64) -> f64 {
         let shear_stress = self.incline.shear_stress(height);
         let pressure = shear_stress / libm::tan(self.incline.inclination);
@@ -44,20 +43,17 @@ impl LawFilm {
     }
 
     /// Velocity u `[m/s]` at a height `[m]`.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         self.integral(height, |_| 1.0)
     }
 
     /// Flux `[m²/s]`, ∫ γ̇ (h − y) dy.
-    #[must_use]
     pub fn flux(&self) -> f64 {
         let thickness = self.incline.layer_height;
         self.integral(thickness, |y| thickness - y)
     }
 
     /// Apparent viscosity `[Pa·s]` at the bed, where the film is sheared most.
-    #[must_use]
     pub fn viscosity_at_bed(&self) -> f64 {
         self.incline.shear_stress(0.0) / self.shear_rate(0.0)
     }

@@ -20,7 +20,6 @@ pub enum SteadyFilm {
 
 impl SteadyFilm {
     /// The film of a law.
-    #[must_use]
     pub fn of(law: Rheology, incline: Incline) -> Self {
         match law {
             Rheology::Newtonian(law) => Self::Newtonian(NewtonianFilm { incline, viscosity: law.viscosity }),
@@ -40,13 +39,11 @@ impl SteadyFilm {
     }
 
     /// The film of a Newtonian liquid with eddies of a positive mixing length `[m]`.
-    #[must_use]
     pub fn with_eddies(liquid: Newtonian, incline: Incline, mixing_length: f64) -> Self {
         Self::Eddies(EddyFilm { incline, viscosity: liquid.viscosity, mixing_length })
     }
 
     /// Exact velocity `[m/s]` at a height `[m]`.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         match self {
             Self::Newtonian(film) => film.velocity(height),
@@ -58,7 +55,6 @@ impl SteadyFilm {
     }
 
     /// Exact flux `[m²/s]`.
-    #[must_use]
     pub fn flux(&self) -> f64 {
         match self {
             Self::Newtonian(film) => film.flux(),
@@ -70,7 +66,6 @@ impl SteadyFilm {
     }
 
     /// Exact height of the plug's edge `[m]`; none where the closed forms know of no plug.
-    #[must_use]
     pub fn plug_edge(&self) -> Option<f64> {
         match self {
             Self::Bingham(film) => Some(film.plug_edge()),
@@ -80,13 +75,11 @@ impl SteadyFilm {
     }
 
     /// Exponent n in τ − τ_y ∝ |du/dy|ⁿ `[-]`.
-    #[must_use]
     pub fn flow_index(&self) -> f64 {
         if let Self::HerschelBulkley(film) = self { film.flow_index } else { 1.0 }
     }
 
     /// Viscosity `[Pa·s]` that sets the time over which the sheared part relaxes, ρ h²/η.
-    #[must_use]
     pub fn relaxing_viscosity(&self) -> f64 {
         match self {
             Self::Newtonian(film) => film.viscosity,

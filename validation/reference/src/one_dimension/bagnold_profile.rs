@@ -26,7 +26,6 @@ pub struct BagnoldProfile {
 
 impl BagnoldProfile {
     /// The layer of a height `[m]` of grains of μ(I), at a solid fraction and a gravity `[m/s²]`, on a slope `[°]`.
-    #[must_use]
     pub fn of(grains: &MuI, layer_height: f64, solid_fraction: f64, gravity: f64, slope_angle: f64) -> Self {
         Self { layer_height, inclination: slope_angle.to_radians(), gravity, grains: *grains, solid_fraction }
     }
@@ -54,7 +53,6 @@ impl BagnoldProfile {
     }
 
     /// Inertial number I `[-]` of the steady flow, the same at every height; none where there is no steady flow.
-    #[must_use]
     pub fn inertial_number(&self) -> Option<f64> {
         let tangent = libm::tan(self.inclination);
         (tangent >= self.grains.static_friction && tangent < self.grains.limiting_friction).then(|| {
@@ -64,7 +62,6 @@ impl BagnoldProfile {
     }
 
     /// Velocity u `[m/s]` at a height y `[m]` above the bed, equation (36); that of the surface above the layer.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> Option<f64> {
         let depth = self.depth_below_surface(height);
         let integral = self.layer_height * self.layer_height.sqrt() - depth * depth.sqrt();
@@ -72,7 +69,6 @@ impl BagnoldProfile {
     }
 
     /// Shear rate du/dy `[1/s]` at a height `[m]`.
-    #[must_use]
     pub fn shear_rate(&self, height: f64) -> Option<f64> {
         Some(
             self.inertial_number()? * self.fall_scale() / self.grains.grain_diameter
@@ -81,31 +77,26 @@ impl BagnoldProfile {
     }
 
     /// Velocity u(h) `[m/s]` at the surface.
-    #[must_use]
     pub fn surface_velocity(&self) -> Option<f64> {
         self.velocity(self.layer_height)
     }
 
     /// Depth mean Ū = (3/5) u(h) `[m/s]` of the velocity, equation (37).
-    #[must_use]
     pub fn depth_mean(&self) -> Option<f64> {
         Some(0.6 * self.surface_velocity()?)
     }
 
     /// Bulk density φ ρ_s `[kg/m³]`.
-    #[must_use]
     pub fn bulk_density(&self) -> f64 {
         self.solid_fraction * self.grains.grain_density
     }
 
     /// Pressure ρ g cosθ (h − y) `[Pa]` at a height `[m]`, steady or not.
-    #[must_use]
     pub fn pressure(&self, height: f64) -> f64 {
         self.bulk_density() * self.gravity * libm::cos(self.inclination) * self.depth_below_surface(height)
     }
 
     /// Shear stress ρ g sinθ (h − y) `[Pa]` at a height `[m]` of the steady flow.
-    #[must_use]
     pub fn shear_stress(&self, height: f64) -> f64 {
         self.bulk_density() * self.gravity * libm::sin(self.inclination) * self.depth_below_surface(height)
     }

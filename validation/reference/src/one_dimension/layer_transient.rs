@@ -95,19 +95,16 @@ impl LayerTransient {
     }
 
     /// Time `[s]` since the start.
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 
     /// Depth mean `[m/s]` of the velocity.
-    #[must_use]
     pub fn depth_mean(&self) -> f64 {
         self.velocity.iter().sum::<f64>() / self.velocity.len() as f64
     }
 
     /// The velocity profile now.
-    #[must_use]
     pub fn profile(&self) -> LayerProfile {
         let width = self.cell_width();
         let heights = (0..self.velocity.len()).map(|i| (i as f64 + 0.5) * width).collect();
@@ -254,7 +251,6 @@ pub struct TransientHistory {
 impl TransientHistory {
     /// First time `[s]` at which the depth mean has risen to a fraction `[-]` of a steady one `[m/s]`, interpolated
     /// between steps; with a fraction of 0.99 this is t_99.
-    #[must_use]
     pub fn rise_time(&self, steady_depth_mean: f64, fraction: f64) -> Option<f64> {
         let level = fraction * steady_depth_mean;
         self.crossing_time(|mean| mean - level)
@@ -262,7 +258,6 @@ impl TransientHistory {
 
     /// First time `[s]` at which the depth mean has fallen to a fraction `[-]` of its initial value, interpolated
     /// between steps: the arrest time, with a fraction of 0.001 unless said otherwise.
-    #[must_use]
     pub fn arrest_time(&self, fraction: f64) -> Option<f64> {
         let level = fraction * self.depth_means.first()?;
         self.crossing_time(|mean| level - mean)

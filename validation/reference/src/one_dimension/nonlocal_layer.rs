@@ -40,13 +40,11 @@ pub struct NonlocalProfile {
 
 impl NonlocalProfile {
     /// Depth mean of the velocity `[m/s]`.
-    #[must_use]
     pub fn depth_mean(&self) -> f64 {
         self.velocities.iter().sum::<f64>() / self.velocities.len() as f64
     }
 
     /// Velocity at a height `[m]`, linear between cells; 0 at the bed and that of the surface above.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         let (cells, first) = (self.heights.len(), self.heights[0]);
         let place = (height - first) / (2.0 * first);
@@ -65,7 +63,6 @@ impl NonlocalProfile {
 
 impl NonlocalLayer {
     /// Thickness h_stop `[m]` above which a layer on this slope flows; none where the local law stops every layer or none.
-    #[must_use]
     pub fn stopping_thickness(&self) -> Option<f64> {
         let tangent = libm::tan(self.layer.inclination);
         (tangent > self.layer.grains.static_friction && tangent < self.layer.grains.limiting_friction)
@@ -73,7 +70,6 @@ impl NonlocalLayer {
     }
 
     /// Slope `[rad]` below which this layer stops.
-    #[must_use]
     pub fn stopping_angle(&self) -> f64 {
         let (low, high) = (self.layer.grains.static_friction, self.layer.grains.limiting_friction);
         let growth =

@@ -78,7 +78,6 @@ pub struct NonlocalShearProfile {
 
 impl ShearStress {
     /// Pressure `[Pa]` and stress ratio `[-]` at a distance from the near end `[m]` of grains of a thickness `[m]`.
-    #[must_use]
     pub fn at(&self, distance: f64, thickness: f64) -> (f64, f64) {
         match *self {
             Self::Chute { pressure, wall_friction } => (pressure, wall_friction * distance / thickness),
@@ -146,7 +145,6 @@ impl NonlocalShearProfile {
     }
 
     /// Velocity `[m/s]` at a distance from the near end `[m]`: that of the near end there, 0 at the far one.
-    #[must_use]
     pub fn velocity(&self, distance: f64) -> f64 {
         let first = self.distances[0];
         let thickness = 2.0 * first * self.distances.len() as f64;
@@ -161,20 +159,17 @@ impl NonlocalShearProfile {
     }
 
     /// Shear rate g μ `[1/s]` at a distance from the near end `[m]`.
-    #[must_use]
     pub fn shear_rate(&self, distance: f64) -> f64 {
         self.interpolated(&self.fluidities, distance) * self.interpolated(&self.frictions, distance)
     }
 
     /// Length u/|du/dy| `[m]` over which the velocity falls by e, at a distance from the near end `[m]`; not a number at rest.
-    #[must_use]
     pub fn decay_length(&self, distance: f64) -> f64 {
         self.velocity(distance) / self.shear_rate(distance)
     }
 
     /// Distance from the far end `[m]` within which the velocity relative to the near end falls by e: the layer in which a chute
     /// shears at its wall. None at rest.
-    #[must_use]
     pub fn wall_layer(&self) -> Option<f64> {
         let lagging = self.fastest * (1.0 - (-1.0_f64).exp());
         if self.fastest <= 0.0 {

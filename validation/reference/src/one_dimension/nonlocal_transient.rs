@@ -69,7 +69,6 @@ impl NonlocalTransient {
     }
 
     /// Depth mean of the velocity `[m/s]`.
-    #[must_use]
     pub(crate) fn depth_mean(&self) -> f64 {
         self.velocity.iter().sum::<f64>() / self.velocity.len() as f64
     }

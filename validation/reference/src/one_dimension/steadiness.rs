@@ -15,7 +15,6 @@ const MOST: f64 = 100.0;
 
 /// Time `[s]` after which a layer that starts at rest has a share `[-]` of its steady depth mean; none where it has no steady
 /// flow, or takes a hundred times as long as its first acceleration would.
-#[must_use]
 pub fn time_to_steadiness(layer: &BagnoldProfile, share: f64) -> Option<f64> {
     let steady = layer.depth_mean()?;
     let acceleration =

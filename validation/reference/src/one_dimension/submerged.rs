@@ -104,7 +104,6 @@ impl SubmergedLayer {
     }
 
     /// Pressure P at the floor under the buoyant weight (ρ_s − ρ_f) g cosθ, from the solid fraction at the start `[Pa]`.
-    #[must_use]
     pub fn floor_overburden(&self, fraction: f64) -> f64 {
         let along_z = self.gravity * libm::cos(self.slope_angle.to_radians());
         (self.grain_density - self.liquid_density) * along_z * fraction * self.depth
@@ -152,7 +151,6 @@ pub struct SubmergedColumn {
 
 impl SubmergedColumn {
     /// A column of a uniform solid fraction and a uniform pore pressure `[Pa]`, tilted at once.
-    #[must_use]
     pub fn new(layer: &SubmergedLayer, solid_fraction: f64, pore_pressure: f64) -> Self {
         let cells = layer.cells;
         let share = |k: usize| (cells as f64 - k as f64 - 0.5) / cells as f64;
@@ -170,7 +168,6 @@ impl SubmergedColumn {
     }
 
     /// Velocity of the surface `[m/s]`.
-    #[must_use]
     pub fn surface_velocity(&self) -> f64 {
         self.flow.iter().zip(&self.fraction).map(|(flow, fraction)| flow.shear_rate * self.grains / fraction).sum()
     }

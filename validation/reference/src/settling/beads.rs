@@ -116,14 +116,12 @@ impl SettlingBeads {
     }
 
     /// Speed at which a deposit rises under beads that sink at a speed, v φ/(φ_d − φ), from the volume of both `[m/s]`.
-    #[must_use]
     pub fn rise_under(&self, sinking: f64) -> f64 {
         let (suspension, packing) = (self.suspension.value, self.packing.value);
         sinking * suspension / (packing - suspension)
     }
 
     /// Relative standard uncertainty of that factor from both fractions `[-]`.
-    #[must_use]
     pub fn rise_known_to(&self) -> f64 {
         let apart = self.packing.value - self.suspension.value;
         let by_suspension = (1.0 / self.suspension.value + 1.0 / apart) * self.suspension.standard_error;

@@ -34,7 +34,6 @@ static RICHARDSON_ZAKI: LazyLock<RichardsonZaki> = LazyLock::new(|| {
 });
 
 /// Confidence in [`richardson_zaki_exponent`]: observed beside a run, never a gate.
-#[must_use]
 pub fn richardson_zaki_confidence() -> Confidence {
     RICHARDSON_ZAKI.confidence
 }
@@ -50,7 +49,6 @@ pub enum GrainForm {
 
 impl GrainForm {
     /// c `[-]` of |ρ_s − ρ_f| g = c C_d ρ_f u²/d.
-    #[must_use]
     pub fn drag_factor(self) -> f64 {
         match self {
             Self::Sphere => 0.75,
@@ -81,7 +79,6 @@ pub struct SettlingGrains {
 
 impl SettlingGrains {
     /// Submerged weight per volume |ρ_s − ρ_f| g `[N/m³]`.
-    #[must_use]
     pub fn submerged_weight(&self) -> f64 {
         (self.grain_density - self.fluid_density).abs() * self.gravity
     }
@@ -97,26 +94,22 @@ impl SettlingGrains {
     }
 
     /// Archimedes number |ρ_s/ρ_f − 1| g d³/ν² `[-]`.
-    #[must_use]
     pub fn archimedes_number(&self) -> f64 {
         let (d, nu) = (self.grain_diameter, self.kinematic_viscosity);
         self.submerged_weight() / self.fluid_density * d * d * d / (nu * nu)
     }
 
     /// Reynolds number u d/ν `[-]` of a velocity `[m/s]`.
-    #[must_use]
     pub fn reynolds(&self, velocity: f64) -> f64 {
         velocity * self.grain_diameter / self.kinematic_viscosity
     }
 
     /// Velocity `[m/s]` of Stokes' drag, C_d R = 24.
-    #[must_use]
     pub fn stokes_velocity(&self, form: GrainForm) -> f64 {
         self.archimedes_number() / (24.0 * form.drag_factor()) * self.kinematic_viscosity / self.grain_diameter
     }
 
     /// Terminal velocity `[m/s]` of a grain alone; none where the law has no drag of one, or beyond the law's range.
-    #[must_use]
     pub fn terminal_velocity(&self, law: DragLaw, form: GrainForm) -> Option<f64> {
         law.drag_times_reynolds(0.0)?;
         let drag = |r: f64| form.drag_factor() * law.drag_times_reynolds(r).unwrap_or(f64::INFINITY) * r;
@@ -128,7 +121,6 @@ impl SettlingGrains {
 
     /// Slip `[m/s]` at which (C_d R) u is a value ≥ 0 `[m/s]`, which the drag of a grain alone is proportional to. None
     /// where the law has no drag of one.
-    #[must_use]
     pub fn slip_of_drag(&self, law: DragLaw, value: f64) -> Option<f64> {
         let start = value / law.drag_times_reynolds(0.0)?;
         let product = |slip: f64| law.drag_times_reynolds(self.reynolds(slip)).unwrap_or(f64::INFINITY) * slip;
@@ -137,7 +129,6 @@ impl SettlingGrains {
 
     /// Slip |u_f − u_s| `[m/s]` of a uniform suspension of a solid fraction φ `[-]` in (0, 1), none outside of it or
     /// beyond the law's range. Spheres: K has no planar form.
-    #[must_use]
     pub fn hindered_slip(&self, law: DragLaw, solid_fraction: f64) -> Option<f64> {
         if !(solid_fraction > 0.0 && solid_fraction < 1.0) {
             return None;
@@ -152,7 +143,6 @@ impl SettlingGrains {
     }
 
     /// Velocity (1 − φ) |u_r| `[m/s]` at which the grains of a suspension sink in a vessel; none as for the slip.
-    #[must_use]
     pub fn hindered_velocity(&self, law: DragLaw, solid_fraction: f64) -> Option<f64> {
         Some((1.0 - solid_fraction) * self.hindered_slip(law, solid_fraction)?)
     }
@@ -160,7 +150,6 @@ impl SettlingGrains {
 
 /// Exponent n `[-]` of Richardson & Zaki (1954), u/u_t = (1 − φ)ⁿ, at the Reynolds number u_t d/ν `[-]` of a grain alone,
 /// in a vessel much wider than a grain. Confidence: [`richardson_zaki_confidence`].
-#[must_use]
 pub fn richardson_zaki_exponent(terminal_reynolds: f64) -> f64 {
     let ranges = &RICHARDSON_ZAKI.ranges;
     let found = ranges.iter().find(|range| terminal_reynolds < range.0).or(ranges.last());

@@ -65,7 +65,6 @@ pub static OTHER_WATER_FRONTS: LazyLock<Vec<NamedFront>> = LazyLock::new(|| {
 
 /// Relative standard deviation of the other fronts from that of the table, where both are known `[-]`: what experiments and readings of
 /// them differ by, releases included.
-#[must_use]
 pub fn spread_of_water_fronts() -> f64 {
     let inside = (Extrapolation::Nothing, Extrapolation::Nothing);
     let points = OTHER_WATER_FRONTS.iter().flat_map(|(_, points)| points);
@@ -83,7 +82,6 @@ const VECTOR_READING: f64 = 0.005;
 impl MeasuredFront {
     /// Standard uncertainty of reading the figure, relative to the place, root mean square over the points `[-]`: that of an
     /// even spread within the difference between readings.
-    #[must_use]
     pub fn relative_reading(&self) -> f64 {
         let square = |&(_, place): &(f64, f64)| (self.reading / place).powi(2) / 3.0;
         (self.points.iter().map(square).sum::<f64>() / self.points.len() as f64).sqrt()

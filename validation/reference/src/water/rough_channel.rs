@@ -30,7 +30,6 @@ static LOG_LAW: LazyLock<LogLaw> = LazyLock::new(|| {
 pub const ORIGIN_DEPTH: f64 = 0.12;
 
 /// k_s/z_0 `[-]`, the roughness of a wall of sand over the height at which the law begins.
-#[must_use]
 pub fn roughness_ratio() -> f64 {
     LOG_LAW.roughness_ratio
 }
@@ -54,37 +53,31 @@ pub struct RoughChannel {
 
 impl RoughChannel {
     /// u_* = √(g h i) `[m/s]`.
-    #[must_use]
     pub fn friction_velocity(&self) -> f64 {
         (self.gravity * self.depth * self.slope).sqrt()
     }
 
     /// Shear stress on the bed ρ g h i `[Pa]`.
-    #[must_use]
     pub fn bed_shear_stress(&self) -> f64 {
         self.density * self.gravity * self.depth * self.slope
     }
 
     /// ln(z′/z_0) `[-]` at a height z `[m]` above the bed.
-    #[must_use]
     pub fn logarithm(&self, height: f64) -> f64 {
         libm::log((height + self.origin_offset) * LOG_LAW.roughness_ratio / self.sand_roughness)
     }
 
     /// Velocity `[m/s]` at a height z `[m]` above the bed; 0 up to z_0.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         self.semi_logarithmic_slope() * self.logarithm(height).max(0.0)
     }
 
     /// Slope u_*/κ `[m/s]` of the velocity over ln z′.
-    #[must_use]
     pub fn semi_logarithmic_slope(&self) -> f64 {
         self.friction_velocity() / LOG_LAW.karman
     }
 
     /// Depth mean U `[m/s]` of the law: (1/h) ∫ u dz from the bed, or from z_0 where that lies above it.
-    #[must_use]
     pub fn mean_velocity(&self) -> f64 {
         // ∫ ln(z′/z_0) dz′ = z′ (ln(z′/z_0) − 1)
         let integral = |height: f64| (height + self.origin_offset) * (self.logarithm(height) - 1.0);
@@ -93,7 +86,6 @@ impl RoughChannel {
     }
 
     /// U/(2 g i) `[s]`, in which a deviation of U decays by e under a friction that goes with U².
-    #[must_use]
     pub fn adjustment_time(&self) -> f64 {
         self.mean_velocity() / (2.0 * self.gravity * self.slope)
     }

@@ -53,7 +53,6 @@ pub struct Emulator {
 impl Emulator {
     /// The emulator of the points at which the model worked; none where they are fewer than the coordinates + 1.
     /// Differences of the model over less than `resolution` of the unit cube are not trusted.
-    #[must_use]
     pub fn fit(history: &[Evaluated], resolution: f64) -> Option<Self> {
         let mut points: Vec<(&[f64], &[f64], f64)> = history
             .iter()
@@ -114,7 +113,6 @@ impl Emulator {
     }
 
     /// The polynomials alone: where runs scatter, what they miss at a point is luck.
-    #[must_use]
     pub fn polynomials(mut self) -> Self {
         let known = self.degree.coefficients(self.dimensions());
         self.coefficients = self.coefficients.columns(0, known).into_owned();
@@ -124,38 +122,32 @@ impl Emulator {
     }
 
     /// Number of parameters.
-    #[must_use]
     pub fn dimensions(&self) -> usize {
         self.centre.len()
     }
 
     /// Number of residuals.
-    #[must_use]
     pub fn data(&self) -> usize {
         self.coefficients.nrows()
     }
 
     /// Weighted residuals `[-]` at a point.
-    #[must_use]
     pub fn predict(&self, point: &[f64]) -> Vec<f64> {
         (&self.coefficients * self.basis(point)).as_slice().to_vec()
     }
 
     /// χ² at a point `[-]`.
-    #[must_use]
     pub fn chi_squared(&self, point: &[f64]) -> f64 {
         Smooth::residuals(self, point).norm_squared()
     }
 
     /// Derivatives of the weighted residuals (rows) by the coordinates (columns).
-    #[must_use]
     pub fn jacobian(&self, point: &[f64]) -> DMatrix<f64> {
         &self.coefficients * self.slopes(point)
     }
 
     /// The least χ² in the cube: downhill from the best point, or from another of the best evaluated points if what
     /// lies below it is lower still and supported by a point nearby.
-    #[must_use]
     pub fn minimum(&self) -> LocalMinimum {
         let mut best = self.minimum_near(&self.centre);
         for start in self.points.iter().take(STARTS) {
@@ -168,19 +160,16 @@ impl Emulator {
     }
 
     /// Evaluated points whose χ² on the emulator is at most a value, the best first.
-    #[must_use]
     pub fn below(&self, chi_squared: f64) -> Vec<Vec<f64>> {
         self.points.iter().filter(|point| self.chi_squared(point) <= chi_squared).cloned().collect()
     }
 
     /// The minimum downhill of a point.
-    #[must_use]
     pub fn minimum_near(&self, start: &[f64]) -> LocalMinimum {
         descend(self, start, &vec![0.0; self.dimensions()], &vec![1.0; self.dimensions()])
     }
 
     /// Whether a point at which the model worked lies near, no farther than [`scale`](Self::scale).
-    #[must_use]
     pub fn supports(&self, point: &[f64]) -> bool {
         self.points.iter().any(|evaluated| distance(evaluated, point) <= self.scale)
     }

@@ -112,7 +112,6 @@ impl fmt::Display for Finding {
 
 /// All that the data leave open, worst first. `jacobian` holds the derivatives of the weighted residuals at the
 /// minimum, `physical` turns the coordinate of a parameter into its value in its unit.
-#[must_use]
 pub fn assess(
     jacobian: &DMatrix<f64>,
     region: &Region,

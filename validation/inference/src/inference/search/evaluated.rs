@@ -16,7 +16,6 @@ pub struct Evaluated {
 
 impl Evaluated {
     /// A point with what the model returned there; a residual that is no finite number is a failure.
-    #[must_use]
     pub fn new(point: Vec<f64>, residuals: Option<Vec<f64>>) -> Self {
         let residuals = residuals.filter(|list| list.iter().all(|residual| residual.is_finite()));
         let chi_squared = residuals.as_deref().map(chi_squared);

@@ -31,7 +31,6 @@ pub enum Method {
 
 impl Method {
     /// Name in files and on pages.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::TrustRegion => "trust-region",
@@ -132,7 +131,6 @@ const COVERAGE_POINTS: usize = 1024;
 
 impl SearchResult {
     /// Share of the unit cube that lies near a point at which the model worked `[-]`: minima elsewhere may be unknown.
-    #[must_use]
     pub fn covered(&self) -> f64 {
         let near = |place: &&Vec<f64>| {
             let worked = self.history.iter().filter(|evaluated| evaluated.chi_squared.is_some());

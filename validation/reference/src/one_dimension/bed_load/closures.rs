@@ -29,7 +29,6 @@ pub enum MixingLengthClosure {
 
 impl MixingLengthClosure {
     /// Its name in parameters and results.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -139,7 +138,6 @@ pub(super) struct Between {
 
 impl Closures {
     /// The first rule between the closures that they break, once each is in its own range.
-    #[must_use]
     pub fn problem(&self) -> Option<ParameterProblem> {
         let pole = self.suspension_viscosity.pole_problem().map(|problem| problem.within("suspension_viscosity"));
         let grows = self.limiting_friction > self.static_friction;

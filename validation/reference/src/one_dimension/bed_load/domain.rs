@@ -37,7 +37,6 @@ pub struct OutsideBedLoad {
 
 impl Stream {
     /// Dimensionless grain diameter D* = d ((s − 1) g/ν²)^⅓ `[-]`.
-    #[must_use]
     pub fn dimensionless_diameter(&self) -> f64 {
         let viscosity = self.kinematic_viscosity;
         let buoyant = (self.grain_density / self.fluid_density - 1.0) * self.gravity;
@@ -45,7 +44,6 @@ impl Stream {
     }
 
     /// The first quantity for which the layer is not one of bed load, if any.
-    #[must_use]
     pub fn outside_bed_load(&self) -> Option<OutsideBedLoad> {
         let quantities = [
             ("dimensionless grain diameter", self.dimensionless_diameter(), DIMENSIONLESS_DIAMETERS),
@@ -62,7 +60,6 @@ impl Stream {
     }
 
     /// Slope tanθ from which on this bed slides on its base, or where its grains are held `[-]`.
-    #[must_use]
     pub fn sliding_slope(&self, closures: &Closures) -> f64 {
         let free = self.bed_depth - self.held_depth;
         let excess = closures.largest_fraction * (self.grain_density / self.fluid_density - 1.0);

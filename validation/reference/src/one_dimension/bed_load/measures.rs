@@ -5,14 +5,12 @@ use bagnold_inference::statistics::linear_fit;
 
 impl LayerState {
     /// Transport rate q* = ∫ φ u_s dz/√((s − 1) g d³) `[-]`.
-    #[must_use]
     pub fn transport(&self) -> f64 {
         let sum: f64 = self.solid_fraction.iter().zip(&self.grain_velocity).map(|(fraction, u)| fraction * u).sum();
         sum * self.cell_height / self.stream.transport_unit()
     }
 
     /// Mean of u_f over z > 0 `[m/s]`.
-    #[must_use]
     pub fn mean_fluid_velocity(&self) -> f64 {
         let above = self.height.partition_point(|z| *z < 0.0);
         let velocities = &self.fluid_velocity[above..];
@@ -20,7 +18,6 @@ impl LayerState {
     }
 
     /// Height `[m]` above which the grains are faster than a speed `[m/s]`; none if none are.
-    #[must_use]
     pub fn moves_above(&self, speed: f64) -> Option<f64> {
         let top = self.height.partition_point(|z| *z < self.top_of_grains());
         let k = self.grain_velocity[..top].iter().rposition(|u| *u <= speed)? + 1;
@@ -29,7 +26,6 @@ impl LayerState {
     }
 
     /// Height `[m]` up to which there are grains.
-    #[must_use]
     pub fn top_of_grains(&self) -> f64 {
         let last = self.solid_fraction.iter().rposition(|fraction| *fraction > 1e-6);
         last.map_or(self.face[0], |k| {
@@ -41,7 +37,6 @@ impl LayerState {
 
     /// Length `[m]` over which u_s falls by e below z = 0: least squares of ln u_s while it exceeds a part of its value
     /// at z = 0.
-    #[must_use]
     pub fn decay_length(&self, part: f64) -> Option<f64> {
         let surface = self.at(0.0).grain_velocity;
         let below = self.height.partition_point(|z| *z < 0.0);
@@ -54,7 +49,6 @@ impl LayerState {
     }
 
     /// Slope du_f/d ln z between two heights `[m]` over u_*/κ `[-]`: 1 in clear water.
-    #[must_use]
     pub fn logarithmic_slope(&self, from: f64, to: f64, karman: f64) -> Option<f64> {
         let inside = |z: f64| z >= from && z <= to;
         let points: Vec<(f64, f64)> = self
@@ -68,7 +62,6 @@ impl LayerState {
     }
 
     /// Height of the largest drag per volume, and the range in which it exceeds a part of that `[m]`.
-    #[must_use]
     pub fn drag_peak(&self, part: f64) -> DragPeak {
         let drag = self.drag();
         let (peak, largest) =
@@ -80,7 +73,6 @@ impl LayerState {
     }
 
     /// Largest error of τ_f + τ_s = g sinθ ∫_z ρ dz over ρ_f g h i `[-]`.
-    #[must_use]
     pub fn stress_balance_error(&self) -> f64 {
         let stream = &self.stream;
         let mut carried = 0.0;
@@ -95,7 +87,6 @@ impl LayerState {
     }
 
     /// Largest error of K (u_f − u_s) = −∂_z τ_s − φ ρ_s g sinθ over the largest drag `[-]`.
-    #[must_use]
     pub fn drag_balance_error(&self) -> f64 {
         let stream = &self.stream;
         let drag = self.drag();
@@ -109,7 +100,6 @@ impl LayerState {
 
     /// Relative L2 difference of u_f and of φ u_s from those of a layer with smaller cells, the larger of the two `[-]`.
     /// Means over this layer's cells are compared, above a height `[m]`.
-    #[must_use]
     pub fn difference(&self, finer: &Self, above: f64) -> f64 {
         let ratio = (self.cell_height / finer.cell_height).round() as usize;
         let mean = |values: &[f64], k: usize| values[k * ratio..(k + 1) * ratio].iter().sum::<f64>() / ratio as f64;

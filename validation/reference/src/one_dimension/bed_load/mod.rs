@@ -194,7 +194,6 @@ impl BedLoadLayer {
     }
 
     /// Number of cells.
-    #[must_use]
     pub fn cells(&self) -> usize {
         ((self.stream.bed_depth + self.stream.flow_depth) / self.cell_height).round() as usize
     }

@@ -56,7 +56,6 @@ pub struct LayerPoint {
 impl LayerState {
     /// Everything at a height `[m]`, by straight lines between cells or faces; at the ends the last value, but both
     /// velocities fall to zero at the base.
-    #[must_use]
     pub fn at(&self, z: f64) -> LayerPoint {
         let cell = |values: &[f64]| line(&self.height, values, z);
         let face = |values: &[f64]| line(&self.face, values, z);
@@ -74,14 +73,12 @@ impl LayerState {
     }
 
     /// Drag on the grains per volume `[N/m³]` in the cells.
-    #[must_use]
     pub fn drag(&self) -> Vec<f64> {
         let slip = self.fluid_velocity.iter().zip(&self.grain_velocity).map(|(fluid, grains)| fluid - grains);
         self.exchange.iter().zip(slip).map(|(exchange, slip)| exchange * slip).collect()
     }
 
     /// The bits of everything that was computed.
-    #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let cells = [&self.solid_fraction, &self.fluid_velocity, &self.grain_velocity, &self.exchange];
         let faces = [&self.grain_pressure, &self.fluid_stress, &self.grain_stress, &self.mixing_length];

@@ -53,7 +53,6 @@ impl SolidFractionProfile {
     }
 
     /// That of a computed layer, constant in each of its cells: the same cells get the same fractions.
-    #[must_use]
     pub fn of_cells(layer: &LayerState) -> Self {
         let half = 0.5 * layer.cell_height;
         let ends = |(&z, &fraction): (&f64, &f64)| [(z - half, fraction), (z + half, fraction)];
@@ -81,7 +80,6 @@ impl SolidFractionProfile {
     }
 
     /// Mean between two heights `[m]`.
-    #[must_use]
     pub fn mean(&self, lower: f64, upper: f64) -> f64 {
         (self.integral(upper) - self.integral(lower)) / (upper - lower)
     }

@@ -23,7 +23,6 @@ pub struct SteadyStates {
 
 impl SteadyStates {
     /// Of the states from rest and from a fast start.
-    #[must_use]
     pub fn of(slow: LayerState, fast: LayerState) -> Self {
         Self { difference: slow.start_difference(&fast), slow, fast }
     }
@@ -66,7 +65,6 @@ impl BedLoadLayer {
 
 impl BedLoadLayer {
     /// A start that is faster than any steady state.
-    #[must_use]
     pub fn fast_start(&self) -> InitialVelocity {
         InitialVelocity::Moving(FAST * self.stream.shear_velocity())
     }
@@ -74,7 +72,6 @@ impl BedLoadLayer {
 
 impl LayerState {
     /// Relative difference from the state of another start: the largest of those of q*, u_f and φ u_s `[-]`.
-    #[must_use]
     pub fn start_difference(&self, other: &Self) -> f64 {
         let transport = (other.transport() / self.transport() - 1.0).abs();
         let profiles = self.difference(other, f64::NEG_INFINITY);

@@ -30,37 +30,31 @@ pub struct Stream {
 
 impl Stream {
     /// Gravity along the slope, g sinθ `[m/s²]`.
-    #[must_use]
     pub fn driving(&self) -> f64 {
         self.gravity * self.slope / self.root()
     }
 
     /// Submerged weight of grains that fill the space, (ρ_s − ρ_f) g cosθ `[N/m³]`.
-    #[must_use]
     pub fn submerged_weight(&self) -> f64 {
         (self.grain_density - self.fluid_density) * self.gravity / self.root()
     }
 
     /// Shear velocity u_* = √(g h i) `[m/s]`.
-    #[must_use]
     pub fn shear_velocity(&self) -> f64 {
         (self.gravity * self.flow_depth * self.slope).sqrt()
     }
 
     /// Unit of the stresses, ρ_f g h i `[Pa]`: what the water above the bed exerts on it.
-    #[must_use]
     pub fn bed_stress(&self) -> f64 {
         self.fluid_density * self.gravity * self.flow_depth * self.slope
     }
 
     /// Shields number τ* = h i/((s − 1) d) `[-]`, s = ρ_s/ρ_f.
-    #[must_use]
     pub fn shields_number(&self) -> f64 {
         self.flow_depth * self.slope / ((self.grain_density / self.fluid_density - 1.0) * self.grain_diameter)
     }
 
     /// Unit of the transport rate, √((s − 1) g d³) `[m²/s]`.
-    #[must_use]
     pub fn transport_unit(&self) -> f64 {
         let d = self.grain_diameter;
         ((self.grain_density / self.fluid_density - 1.0) * self.gravity * d * d * d).sqrt()
