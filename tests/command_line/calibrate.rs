@@ -255,8 +255,8 @@ fn wrong_data_are_refused_by_name() {
     );
     assert_eq!(
         data(",uncertainty [m/s]", ",weight"),
-        "error: mine.csv: `columns` is y [m], u [m/s], without uncertainty, but must be abscissa, measured quantity, and its \
-         uncertainty or repeats, with units; add a column `uncertainty`; for repeats, { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }"
+        "error: mine.csv: `columns` is y [m], u [m/s], without uncertainty, but must be abscissa, quantity, \
+         uncertainty or repeats, with units; add a column, or columns.front = [\"a [cm]\", \"b [cm]\"]"
     );
     assert_eq!(
         data("y [m],", "z [m],"),

@@ -1,10 +1,10 @@
 //! Input uncertainty by the closures: layers whose closures are drawn from their ranges, each beside its bed at rest.
 
 use super::flow::{BedLoad1dFlow, BedMotion};
-use super::prediction::steady;
 use crate::case::ParameterError;
+use crate::checkpoint::is_interrupted;
 use crate::metric::{Metric, MetricKind, Origin};
-use crate::reference::one_dimension::bed_load::{Closures, LayerState};
+use crate::reference::one_dimension::bed_load::{Closures, InitialVelocity, LayerState};
 use crate::sampling::design::sobol;
 use bagnold_solver::material::drag::DragLaw;
 use serde::{Deserialize, Serialize};
@@ -72,6 +72,18 @@ fn closures(own: &Closures, point: &[f64]) -> Closures {
     drawn.karman *= factor(5);
     drawn.grain_roughness.origin_depth *= factor(6);
     drawn
+}
+
+/// The steady layer from rest; none where it does not become steady or where the closures break a rule.
+pub(super) fn steady(flow: &BedLoad1dFlow) -> Result<Option<LayerState>, ParameterError> {
+    if flow.closures.problem().is_some() {
+        return Ok(None);
+    }
+    let approach = flow.layer().and_then(|layer| layer.approach_unless(InitialVelocity::Rest, &is_interrupted));
+    if is_interrupted() {
+        return Err(ParameterError::Interrupted);
+    }
+    Ok(approach.ok().filter(|approach| approach.unsteady.is_none()).map(|approach| approach.state))
 }
 
 /// The layer of a flow with other closures and the bed at rest beside it; none without a steady state or where the closures break a rule.

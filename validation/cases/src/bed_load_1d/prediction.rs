@@ -1,11 +1,10 @@
 //! Bed load of a flume: the layer with closures drawn from their ranges, times the scatter of measured runs.
 
-use super::draws::drawn_closures;
+use super::draws::{drawn_closures, steady};
 use super::flow::{BedLoad1dFlow, GrainUnits, LayerStream, SimilarStream};
 use crate::case::ParameterError;
-use crate::checkpoint::is_interrupted;
 use crate::reference::bed_load::{Flume, TransportFormula, measured_grains, measured_rates_about, measured_scatter};
-use crate::reference::one_dimension::bed_load::{Closures, InitialVelocity, LayerState, Stream};
+use crate::reference::one_dimension::bed_load::{Closures, LayerState, Stream};
 use crate::reference::points::MeasuredBand;
 use crate::statistics::percentile;
 use bagnold_number::four_digits;
@@ -88,8 +87,8 @@ impl BedLoadFlume {
             return refused("width", width, "at least the depth of the water", remedy);
         }
         if self.layer(1.0, Closures::default()).checked().is_err() {
-            let remedy = "steeper beds move down to their base: run a scene of a debris flow";
-            return refused("slope", self.slope, "so gentle that a bed of 8 grains does not slide as a whole", remedy);
+            let remedy = "steeper beds move as debris flows: run a scene";
+            return refused("slope", self.slope, "so gentle that a bed of 8 grains does not slide", remedy);
         }
         Ok(())
     }
@@ -165,16 +164,4 @@ impl BedLoadFlume {
         .flatten()
         .collect()
     }
-}
-
-/// The steady layer from rest; none where it does not become steady or where the closures break a rule.
-pub(super) fn steady(flow: &BedLoad1dFlow) -> Result<Option<LayerState>, ParameterError> {
-    if flow.closures.problem().is_some() {
-        return Ok(None);
-    }
-    let approach = flow.layer().and_then(|layer| layer.approach_unless(InitialVelocity::Rest, &is_interrupted));
-    if is_interrupted() {
-        return Err(ParameterError::Interrupted);
-    }
-    Ok(approach.ok().filter(|approach| approach.unsteady.is_none()).map(|approach| approach.state))
 }

@@ -16,13 +16,13 @@ const KEYS: [&str; 6] = ["limit", "figure", "panel", "curve", "source", "confide
 const UNCERTAINTY: [&str; 5] = ["uncertainty", "sigma", "σ", "std", "stdev"];
 
 /// The form of a file.
-const FORM: &str = "abscissa, measured quantity, and its uncertainty or repeats, with units";
+const FORM: &str = "abscissa, quantity, uncertainty or repeats, with units";
 
 /// A row of that form.
 const ROW: &str = "write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`";
 
 /// How repeats and headings of one's own are named in a case file, study or plan.
-const REPEATS: &str = "for repeats, { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }";
+const REPEATS: &str = "columns.front = [\"a [cm]\", \"b [cm]\"]";
 
 /// Names of the columns that are meant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -78,7 +78,7 @@ fn parse(
     let table = TableRows::of(text, path)?;
     let listed = table.headings().join(", ");
     let wrong = |defect: &str, missing: Option<&&str>| {
-        let (rule, remedy) = missing.map_or((FORM.to_owned(), format!("{ROW}; {REPEATS}")), |name| {
+        let (rule, remedy) = missing.map_or((FORM.to_owned(), format!("{ROW}, or {REPEATS}")), |name| {
             let name = name.rsplit_once(": ").map_or(*name, |(_, own)| own);
             let columns = format!("columns = {{ \"{name}\" = \"HEADING [UNIT]\" }}");
             (format!("headings with `{name}` among them"), format!("rename one, or give {{ files = […], {columns} }}"))
@@ -97,7 +97,7 @@ fn parse(
             Some(named) => columns.push(NumberColumn::of(&table.rows, place, heading, named)?),
             None if place == 0 && names.is_none() && wanted.over.is_none() && table.rows.iter().all(is_number) => {
                 let rule = "a heading with its unit in brackets";
-                return Err(FieldError::new(heading, format!("\"{heading}\""), rule, &format!("{ROW}; {REPEATS}")));
+                return Err(FieldError::new(heading, format!("\"{heading}\""), rule, &format!("{ROW}, or {REPEATS}")));
             }
             // a label
             None => {}
@@ -219,7 +219,7 @@ impl MeasuredColumns {
         if uncertainty.contains(&0.0) {
             let defect = if repeats.len() == 1 { "without uncertainty" } else { "equal in all repeats" };
             let columns = format!("{}, {}, {defect}", heading(&self.over), heading(first));
-            return Err(FieldError::new("columns", columns, FORM, &format!("add a column `uncertainty`; {REPEATS}")));
+            return Err(FieldError::new("columns", columns, FORM, &format!("add a column, or {REPEATS}")));
         }
         Ok(Measurements {
             path: path.to_owned(),

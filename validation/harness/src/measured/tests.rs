@@ -198,11 +198,11 @@ fn invalid_measurements_are_refused() {
     for (text, message) in [
         (
             "t [s],front [m]\n1,1\n",
-            "mine.csv: `columns` is t [s], front [m], without uncertainty, but must be abscissa, measured quantity, and its uncertainty or repeats, with units; add a column `uncertainty`; for repeats, { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }",
+            "mine.csv: `columns` is t [s], front [m], without uncertainty, but must be abscissa, quantity, uncertainty or repeats, with units; add a column, or columns.front = [\"a [cm]\", \"b [cm]\"]",
         ),
         (
             "t,front [m],uncertainty [m]\n1,1,1\n",
-            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`; for repeats, { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }",
+            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`, or columns.front = [\"a [cm]\", \"b [cm]\"]",
         ),
         (
             "t [s],front [m],uncertainty [s]\n1,1,1\n",

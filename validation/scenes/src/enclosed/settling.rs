@@ -203,8 +203,7 @@ fn check_held<const D: usize>(
     Err(refused_for(&moves, "", if is_liquid { SUPPORT_OF_LIQUID } else { SUPPORT }))
 }
 
-const SUPPORT_OF_LIQUID: &str =
-    "close open sides; a liquid beside inclined walls turns over in place, so remove `preparation` there";
+const SUPPORT_OF_LIQUID: &str = "close open sides, or remove `preparation`: liquids beside inclined walls turn over";
 const SUPPORT: &str = "support the bodies with walls, keep slopes below the static friction, or remove `preparation`";
 
 fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
