@@ -96,7 +96,7 @@ fn every_command_works_and_keeps_its_runs_in_the_users_cache() {
     bagnold(&place, &["examples"]).assert().code(0);
     assert_eq!(
         names(place.path(WORK).join("examples")),
-        [".bagnold-output", "calibrations", "scenes", "studies", "sweeps"]
+        [".bagnold-output", "calibrations", "grains", "scenes", "studies", "sweeps"]
     );
     let shipped = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../validation/calibrations"));
     assert_eq!(names(place.path(WORK).join("examples/calibrations")), names(shipped));

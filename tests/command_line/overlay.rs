@@ -65,7 +65,7 @@ fn measurements_that_cannot_be_read_are_refused_before_anything_is_simulated() {
         ),
         (
             "y/h [-],u [m/s]\n0.5,1\n",
-            "`columns` is y/h [-], u [m/s], without uncertainty, but must be abscissa, measured quantity, and its uncertainty or repeats",
+            "`columns` is y/h [-], u [m/s], without uncertainty, but must be abscissa, quantity, uncertainty or repeats",
         ),
         ("# limit: -1\ny/h [-],u [m/s],uncertainty [m/s]\n0.5,1,1\n", "`# limit` is -1, but must be a positive number"),
     ] {

@@ -136,7 +136,8 @@ fn overview_of(names: &[&str]) -> String {
         let measured = run_out.against(Some(2.0), "an experiment", Confidence::Medium);
         let known = measured.known_to(Origin::Repeat, Some(0.5), "seeds");
         let mut own = case(name, vec![gated("velocity_l2", 0.25), known]);
-        own.result.figures = vec![drawing("first"), drawing("scaling")];
+        own.result.figures =
+            ["first", "velocity-profile", "start-stop", "scaling", "run-out", "transport"].map(drawing).to_vec();
         own
     };
     write(&report(names.iter().map(of).collect()), folder.path(), &Drawings::default()).expect("written");
