@@ -100,7 +100,7 @@ const RANGES: [(&str, &str); 5] = [
     ("columns, 2-D | fits, other codes, a measured pile", "column-planar"),
     ("columns, 3-D | measured run-outs", "column-round"),
     ("collapse on a slope | a fit", "incline-collapse"),
-    ("bed load, h the water depth | measured up to 1.7°, a fit above", "bed-load-1d"),
+    ("bed load, h the water depth | measured up to 1.7° and a Shields number of 0.25, a fit above", "bed-load-1d"),
     ("water column | measured", "water-column"),
 ];
 
