@@ -45,17 +45,17 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
     }
     let (steady, all) = own.draws;
     lines.push(format!(
-        "closures      95 % of {steady} steady layers of {all} draws: {}",
+        "closures      95 % of {steady} steady layers of {all} draws: {} kg/(m s)",
         within(own.by_closures, unit)
     ));
     let formula = of(own.formula * unit);
     lines.push(match &own.rates {
         Some(rates) => format!(
-            "measured      {} kg/(m s), median of {} runs at about this Shields number; formula of Wong & Parker {formula}",
+            "measured      {} kg/(m s), median of {} runs at about this Shields number; formula of Wong & Parker {formula} kg/(m s)",
             of(rates.median * own.formula * unit),
             rates.number
         ),
-        None => format!("measured      fewer than ten runs at about this Shields number; formula of Wong & Parker {formula}"),
+        None => format!("measured      fewer than ten runs at about this Shields number, so the scatter is that of all above 0.1; formula of Wong & Parker {formula} kg/(m s)"),
     });
     lines.push(format!(
         "Shields number {} at a mean velocity of {} m/s",

@@ -35,12 +35,17 @@ pub(crate) fn all<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Figure> 
     figures.extend(convergence::figure(records));
     figures.extend(stress_updates::figure(records));
     for (run, record) in laws.iter().filter(|(run, _)| is_shown(run)).map(|record| (&record.0, &record.1)) {
-        figures.push(pictures(run, &record.frames));
+        if run.aspect_ratio <= TALLEST_IN_PICTURES {
+            figures.push(pictures(run, &record.frames));
+        }
         figures.extend(shown(run, &record.frames));
         figures.extend(velocity_profiles(run, record));
     }
     figures
 }
+
+/// Aspect ratio of columns above which an animation alone shows the flow `[-]`: their pictures are strips.
+const TALLEST_IN_PICTURES: f64 = 3.0;
 
 /// A name with the material of its columns.
 fn of_material<const D: usize>(name: &str, records: &[&CollapseRecord<D>]) -> String {

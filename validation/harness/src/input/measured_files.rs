@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     untagged,
+    deny_unknown_fields,
     expecting = "expected a file of measurements, a list of the files of repeats, or { files = […], columns = { front = \"toe [cm]\" } }"
 )]
 pub enum MeasuredFiles {

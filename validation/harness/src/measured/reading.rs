@@ -22,6 +22,7 @@ const FORM: &str = "abscissa, quantity, uncertainty or repeats, with units";
 const ROW: &str = "write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`";
 
 /// How repeats and headings of one's own are named in a case file, study or plan.
+const NAMED: &str = "in a case file give { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }";
 const REPEATS: &str = "columns.front = [\"a [cm]\", \"b [cm]\"]";
 
 /// Names of the columns that are meant.
@@ -78,7 +79,7 @@ fn parse(
     let table = TableRows::of(text, path)?;
     let listed = table.headings().join(", ");
     let wrong = |defect: &str, missing: Option<&&str>| {
-        let (rule, remedy) = missing.map_or((FORM.to_owned(), format!("{ROW}, or {REPEATS}")), |name| {
+        let (rule, remedy) = missing.map_or((FORM.to_owned(), format!("{ROW}, or {NAMED}")), |name| {
             let name = name.rsplit_once(": ").map_or(*name, |(_, own)| own);
             let columns = format!("columns = {{ \"{name}\" = \"HEADING [UNIT]\" }}");
             (format!("headings with `{name}` among them"), format!("rename one, or give {{ files = […], {columns} }}"))
@@ -97,7 +98,7 @@ fn parse(
             Some(named) => columns.push(NumberColumn::of(&table.rows, place, heading, named)?),
             None if place == 0 && names.is_none() && wanted.over.is_none() && table.rows.iter().all(is_number) => {
                 let rule = "a heading with its unit in brackets";
-                return Err(FieldError::new(heading, format!("\"{heading}\""), rule, &format!("{ROW}, or {REPEATS}")));
+                return Err(FieldError::new(heading, format!("\"{heading}\""), rule, &format!("{ROW}, or {NAMED}")));
             }
             // a label
             None => {}

@@ -202,7 +202,7 @@ fn invalid_measurements_are_refused() {
         ),
         (
             "t,front [m],uncertainty [m]\n1,1,1\n",
-            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`, or columns.front = [\"a [cm]\", \"b [cm]\"]",
+            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`, or in a case file give { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }",
         ),
         (
             "t [s],front [m],uncertainty [s]\n1,1,1\n",
