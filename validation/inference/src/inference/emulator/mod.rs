@@ -169,7 +169,7 @@ impl Emulator {
         descend(self, start, &vec![0.0; self.dimensions()], &vec![1.0; self.dimensions()])
     }
 
-    /// Whether a point at which the model worked lies near, no farther than [`scale`](Self::scale).
+    /// Whether a point at which the model worked lies near, no farther than the scale of the emulator.
     pub fn supports(&self, point: &[f64]) -> bool {
         self.points.iter().any(|evaluated| distance(evaluated, point) <= self.scale)
     }
