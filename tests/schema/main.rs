@@ -133,8 +133,17 @@ fn show_and_schema_document_every_field_of_list_entries() {
                 let about = about.split_whitespace().collect::<Vec<_>>().join(" ");
                 let sentence = about.split(". ").next().unwrap_or_default().trim_end_matches('.').replace("`[", "[");
                 let words = [&sentence.replace("]`", "]"), field["x-rule"].as_str().unwrap_or_default()];
-                let line = table.lines().find(|line| line.starts_with(&format!("# {name} = ")));
-                let line = line.unwrap_or_default().to_lowercase();
+                let of = |table: &str, name: &str| {
+                    let line = table.lines().find(|line| line.starts_with(&format!("# {name} = ")));
+                    line.unwrap_or_default().to_lowercase()
+                };
+                // a table within the entry has a block of its own
+                let line = name.rsplit_once('.').map_or_else(String::new, |(within, name)| {
+                    let head = format!("# [{path}.{within}]");
+                    let own = text.split("\n\n").filter(|table| table.starts_with(&head));
+                    own.map(|table| of(table, name)).find(|line| !line.is_empty()).unwrap_or_default()
+                });
+                let line = if line.is_empty() { of(table, name) } else { line };
                 words.iter().all(|words| !line.is_empty() && line.contains(&words.to_lowercase()))
             };
             let fields = fields(form, "");

@@ -319,6 +319,10 @@ fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<Dra
     let mut moving = animations.collect::<Result<Vec<DrawnFigure>, ReportError>>()?.into_iter();
     let still = || {
         let picture = flow_picture::of_case(case)?;
+        // what is drawn for a paper has its size
+        if drawings.format() != FigureFormat::SCREEN {
+            return Some(draw_figures(&[picture], folder, drawings).map(|mut own| own.remove(0)));
+        }
         let written = drawing::write_picture(&picture, folder, drawings, FigureFormat::HALF);
         Some(as_drawn(&picture.name, &picture.caption, PICTURE_FILES, written))
     };
