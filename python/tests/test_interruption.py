@@ -29,7 +29,7 @@ def test_other_threads_go_on_and_an_interrupted_run_goes_on_later(heard):
             counted += 1
 
     def interrupt():
-        time.sleep(1.5)
+        time.sleep(3.0)
         os.kill(os.getpid(), signal.SIGINT)
 
     threads = [threading.Thread(target=count), threading.Thread(target=interrupt)]
