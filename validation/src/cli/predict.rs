@@ -64,7 +64,7 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
     ));
     if flume.width.is_some() {
         lines.push(format!(
-            "side walls    the bed bears {} of ρ g h S (Vanoni & Brooks 1957); between walls as rough as the bed {} (Guo & Julien 2005)",
+            "side walls    the bed bears {} of ρ g h S (Vanoni & Brooks 1957, smooth walls); if the bed were as smooth, {} (Guo & Julien 2005)",
             of(own.bed_share),
             of(own.smooth_bed_share)
         ));

@@ -21,7 +21,7 @@ const FORM: &str = "abscissa, quantity, uncertainty or repeats, with units";
 /// A row of that form.
 const ROW: &str = "write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`";
 
-/// How repeats and headings of one's own are named in a case file, study or plan.
+/// Form of repeats and of own headings in a case file, study or plan.
 const NAMED: &str =
     "in a case file give { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }";
 const REPEATS: &str = "columns.front = [\"a [cm]\", \"b [cm]\"]";

@@ -25,7 +25,7 @@ pub enum PredictAction {
 
 /// `bagnold predict bed-load`
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub struct BedLoadArguments {
     /// Grain diameter [m].
     #[arg(long, value_name = "M", value_parser = grain)]

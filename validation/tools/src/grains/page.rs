@@ -69,7 +69,9 @@ pub fn summary(runs: &[RunFields]) -> String {
         let stress = if [pressure, shear] == [1.0, 1.0] {
             "stress by the momentum balance of the geometry".to_owned()
         } else {
-            let [pressure, shear] = [pressure, shear].map(|ratio| short_digits(ratio, 3));
+            let bears =
+                |ratio: f64| if ratio.is_finite() { short_digits(ratio, 3) } else { "an unknown part".to_owned() };
+            let [pressure, shear] = [pressure, shear].map(bears);
             format!("contacts bear {pressure} of the pressure and {shear} of the shear stress of the momentum balance")
         };
         let [frames, grains, ..] = run.total;

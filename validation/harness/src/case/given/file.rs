@@ -71,8 +71,8 @@ impl CaseFile {
         let overlay = match fields.remove("overlay") {
             None => Vec::new(),
             Some(value) => value.clone().try_into::<Vec<MeasuredFiles>>().map_err(|_| {
-                let rule = "a list of CSV files with measurements";
-                wrong("overlay", &value, rule, "such as overlay = [\"mine.csv\"]; their paths begin at this file")
+                let rule = "files with measurements, or tables of `files` and `columns`";
+                wrong("overlay", &value, rule, "write overlay = [\"mine.csv\"], beside this file")
             })?,
         };
         let beside = path.parent().unwrap_or(Path::new(""));
@@ -214,7 +214,7 @@ mod tests {
         assert!(file.fields.is_empty());
         assert_eq!(
             read("case = \"film\"\noverlay = 3").expect_err("no list").to_string(),
-            "mine/case.toml: `overlay` is 3, but must be a list of CSV files with measurements; such as overlay = [\"mine.csv\"]; their paths begin at this file"
+            "mine/case.toml: `overlay` is 3, but must be files with measurements, or tables of `files` and `columns`; write overlay = [\"mine.csv\"], beside this file"
         );
     }
 
