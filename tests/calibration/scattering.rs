@@ -89,8 +89,8 @@ mod long {
     #[test]
     #[ignore = "long: bash tests/long.sh"]
     fn a_film_of_perturbed_particles_is_judged_by_means_over_seeds() {
-        let tally = study("a film of displaced particles", 1..=3, 3, &format!("{VISCOSITY}{FILM}"));
-        assert!(tally.joint >= 2 && tally.settled == 3, "{tally:?}");
+        let tally = study("a film of displaced particles", 1..=1, 3, &format!("{VISCOSITY}{FILM}"));
+        assert!(tally.joint == 1 && tally.settled == 1, "{tally:?}");
     }
 }
 
