@@ -168,13 +168,7 @@ impl Place {
             let (path, shown, words) = match value {
                 Value::Float(number) => (self.path.clone(), number.to_string(), broken_bound(rule, *number)?),
                 Value::Integer(number) => (self.path.clone(), number.to_string(), broken_bound(rule, *number as f64)?),
-                Value::Array(values) => {
-                    let (index, words) = broken_list(rule, values)?;
-                    match index {
-                        Some(index) => (self.at(index).path, bare(&values[index]), words),
-                        None => (self.path.clone(), bare(value), words),
-                    }
-                }
+                Value::Array(values) => (self.path.clone(), value.to_string(), broken_list(rule, values.len())?),
                 _ => return None,
             };
             let word = |key: &str| rule.get(key).and_then(Schema::as_str);
@@ -189,7 +183,7 @@ impl Place {
 #[must_use]
 pub fn rule_in_words(schema: &Schema) -> Option<String> {
     let words = schema.get("x-rule").and_then(Schema::as_str).map(str::to_owned);
-    let of_list = || schema.get("items").and_then(|_| broken_list(schema, &[])).map(|(_, words)| words);
+    let of_list = || schema.get("items").and_then(|_| broken_list(schema, 0));
     let of_entries = || Some(format!("each {}", rule_in_words(schema.get("items")?)?));
     // NaN breaks every bound, an empty list every least length
     words.or_else(|| broken_bound(schema, f64::NAN)).or_else(of_list).or_else(of_entries)
@@ -221,15 +215,10 @@ fn broken_bound(rule: &Schema, value: f64) -> Option<String> {
     })
 }
 
-/// The rule that a list breaks, with the entry that does.
-fn broken_list(rule: &Schema, values: &[Value]) -> Option<(Option<usize>, String)> {
-    let least = rule.get("minItems").and_then(Schema::as_u64).unwrap_or(0);
-    if (values.len() as u64) < least {
-        return Some((None, format!("a list of at least {least}")));
-    }
-    let unique = rule.get("uniqueItems").is_some_and(|unique| unique == true);
-    let twin = (0..values.len()).find(|&index| unique && values[..index].contains(&values[index]))?;
-    Some((Some(twin), "unique".to_owned()))
+/// The least length that a list falls short of, in words.
+fn broken_list(rule: &Schema, length: usize) -> Option<String> {
+    let least = rule.get("minItems").and_then(Schema::as_u64)?;
+    ((length as u64) < least).then(|| format!("a list of at least {least}"))
 }
 
 /// Name of a value of a shape, without the words of Rust's type system.
@@ -266,13 +255,4 @@ fn number(bound: f64) -> String {
 /// A value as TOML writes it, if that takes one line.
 fn shown(value: &Value) -> Option<String> {
     Some(value.to_string()).filter(|text| !text.contains('\n')).map(shortened)
-}
-
-/// A value in a message on its range: a name without its quotes.
-fn bare(value: &Value) -> String {
-    match value {
-        Value::String(name) => name.clone(),
-        Value::Float(number) => number.to_string(),
-        other => other.to_string(),
-    }
 }

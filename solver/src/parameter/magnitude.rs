@@ -120,7 +120,7 @@ fn units_in(description: &str) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Fault, each, first_fault, positive, schema_of, unbounded};
+    use super::super::{Fault, first_fault, positive, schema_of, unbounded};
     use schemars::JsonSchema;
     use serde::Serialize;
 
@@ -132,7 +132,6 @@ mod tests {
         /// Origin `[m]`.
         offset: f64,
         /// Angles `[°]`.
-        #[schemars(transform = each(positive("give them in degrees")))]
         angles: Vec<f64>,
         /// Pairs: thickness `[m]`, angle `[°]`.
         stops: Vec<(f64, f64)>,

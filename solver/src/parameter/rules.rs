@@ -7,22 +7,10 @@ use schemars::Schema;
 use schemars::transform::Transform;
 use serde_json::{Map, Value, json};
 
-/// A rule of a field's value, or of values within it.
+/// A rule of a field's value.
 #[derive(Debug, Clone)]
 pub struct Rule {
     keywords: Map<String, Value>,
-    /// From the field inwards.
-    within: Vec<Within>,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Within {
-    /// Every value of a list or tuple.
-    Each,
-    /// One value of a tuple.
-    Entry(usize),
-    /// One field of a table.
-    Field(&'static str),
 }
 
 impl Rule {
@@ -30,7 +18,7 @@ impl Rule {
         let mut keywords: Map<String, Value> =
             keywords.into_iter().map(|(keyword, value)| (keyword.to_owned(), value)).collect();
         keywords.insert("x-remedy".to_owned(), remedy.into());
-        Self { keywords, within: Vec::new() }
+        Self { keywords }
     }
 
     /// The same rule with its own words, completing "must be …".
@@ -45,30 +33,7 @@ impl Transform for Rule {
     /// The first rule of a schema stands in its own keywords, in place of the bounds of the type; further ones, which
     /// are asked in their order, under `allOf`.
     fn transform(&mut self, schema: &mut Schema) {
-        self.add(schema.ensure_object(), &self.within);
-    }
-}
-
-impl Rule {
-    fn add(&self, place: &mut Map<String, Value>, within: &[Within]) {
-        if let Some((first, rest)) = within.split_first() {
-            let inner = match first {
-                Within::Each => place.get_mut("items"),
-                Within::Field(name) => place.get_mut("properties").and_then(|properties| properties.get_mut(name)),
-                Within::Entry(_) => None,
-            };
-            if let Some(Value::Object(inner)) = inner {
-                return self.add(inner, rest);
-            }
-            let entries = place.get_mut("prefixItems").and_then(Value::as_array_mut).into_iter().flatten().enumerate();
-            for (index, entry) in entries.filter_map(|(index, entry)| Some((index, entry.as_object_mut()?))) {
-                match first {
-                    Within::Entry(only) if *only != index => {}
-                    _ => self.add(entry, rest),
-                }
-            }
-            return;
-        }
+        let place = schema.ensure_object();
         if place.contains_key("x-remedy") {
             let further = place.entry("allOf").or_insert_with(|| json!([]));
             if let Value::Array(further) = further {
@@ -122,37 +87,10 @@ pub fn inside(lower: f64, upper: f64, remedy: &str) -> Rule {
     Rule::new([("exclusiveMinimum", number(lower)), ("exclusiveMaximum", number(upper))], remedy)
 }
 
-/// A rule of every value of a list or tuple.
-#[must_use]
-pub fn each(mut rule: Rule) -> Rule {
-    rule.within.insert(0, Within::Each);
-    rule
-}
-
-/// A rule of one field of a table, where the holder knows more than the table's own type.
-#[must_use]
-pub fn within(field: &'static str, mut rule: Rule) -> Rule {
-    rule.within.insert(0, Within::Field(field));
-    rule
-}
-
-/// A rule of one value of a tuple, by its place.
-#[must_use]
-pub fn entry(index: usize, mut rule: Rule) -> Rule {
-    rule.within.insert(0, Within::Entry(index));
-    rule
-}
-
 /// A list with at least one value; `words` completes "must be …", as "at least one slope".
 #[must_use]
 pub fn filled(words: &str, remedy: &str) -> Rule {
     Rule::new([("minItems", 1.into())], remedy).in_words(words)
-}
-
-/// A list without equal values.
-#[must_use]
-pub fn unique(remedy: &str) -> Rule {
-    Rule::new([("uniqueItems", true.into())], remedy)
 }
 
 /// A bound as JSON: a whole one without a fraction.
