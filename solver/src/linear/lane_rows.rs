@@ -26,8 +26,6 @@ pub(crate) trait Coefficients: Copy + Send + Sync {
     fn entry(&self, lane: usize) -> Self::Entry;
     /// Changes those of a lane.
     fn set(&mut self, lane: usize, entry: Self::Entry);
-    /// Makes those of a lane zero.
-    fn clear(&mut self, lane: usize);
 }
 
 /// One coefficient an entry, in single precision.
@@ -55,11 +53,6 @@ impl Coefficients for Single {
     #[inline(always)]
     fn set(&mut self, lane: usize, entry: f64) {
         self.0[lane] = entry as f32;
-    }
-
-    #[inline(always)]
-    fn clear(&mut self, lane: usize) {
-        self.0[lane] = 0.0;
     }
 }
 
@@ -126,7 +119,7 @@ impl<C: Coefficients> RowGroup<'_, C> {
         for lane in 0..LANES {
             for place in self.filled[lane]..width {
                 self.columns[place as usize][lane] = (first + lane).min(rows - 1) as u32;
-                self.coefficients[place as usize].clear(lane);
+                self.coefficients[place as usize].set(lane, C::ZERO.entry(lane));
             }
         }
         width

@@ -28,11 +28,6 @@ impl<const D: usize> Coefficients for LinkChunk<D> {
         }
         self.laplacian[lane] = laplacian as f32;
     }
-
-    #[inline(always)]
-    fn clear(&mut self, lane: usize) {
-        self.set(lane, (Vector::zeros(), 0.0));
-    }
 }
 
 /// Rows of the pressure: links, their chunks in every group, Σ_b g_ab with the walls', the diagonal, and what it has beyond its
