@@ -6,29 +6,18 @@
 
 use super::grid::ColumnGrid;
 
-/// φ of a column and what it tends to `[-]`, shape `[nodes]`.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Swelling<'a> {
-    pub(crate) fraction: &'a [f64],
-    pub(crate) target: &'a [f64],
-    /// T `[s]`.
-    pub(crate) time: f64,
-}
-
-impl Swelling<'_> {
-    /// w `[m/s]` at the face above every node of a column.
-    pub(crate) fn lifts(&self, grid: &ColumnGrid, lifts: &mut [f64]) {
-        let mut lift = 0.0;
-        for (node, face) in lifts.iter_mut().enumerate() {
-            let (fraction, target) = (self.fraction[node], self.target[node]);
-            let larger = fraction.max(target);
-            if node + 1 >= grid.held && larger > 0.0 {
-                // the lower half of the topmost held cell is filled by what is held
-                let height = if node + 1 == grid.held { 0.5 * grid.cell } else { grid.cell };
-                lift += (fraction - target) / larger / self.time * height;
-            }
-            *face = lift;
+/// w `[m/s]` at the face above every node of a column, by its φ and what that tends to `[-]`, shape `[nodes]`, within T `[s]`.
+pub(crate) fn find_lifts(grid: &ColumnGrid, (fraction, target): (&[f64], &[f64]), time: f64, lifts: &mut [f64]) {
+    let mut lift = 0.0;
+    for (node, face) in lifts.iter_mut().enumerate() {
+        let (fraction, target) = (fraction[node], target[node]);
+        let larger = fraction.max(target);
+        if node + 1 >= grid.held && larger > 0.0 {
+            // the lower half of the topmost held cell is filled by what is held
+            let height = if node + 1 == grid.held { 0.5 * grid.cell } else { grid.cell };
+            lift += (fraction - target) / larger / time * height;
         }
+        *face = lift;
     }
 }
 
@@ -43,7 +32,7 @@ mod tests {
         let mut lifts = vec![f64::NAN; grid.nodes];
         let of = |fraction: f64, lifts: &mut [f64]| {
             let (fraction, target) = (vec![fraction; grid.nodes], vec![0.5; grid.nodes]);
-            Swelling { fraction: &fraction, target: &target, time: 0.02 }.lifts(&grid, lifts);
+            find_lifts(&grid, (&fraction, &target), 0.02, lifts);
         };
         of(0.5, &mut lifts);
         assert!(lifts.iter().all(|lift| *lift == 0.0));

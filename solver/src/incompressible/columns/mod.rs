@@ -39,7 +39,7 @@ use crate::domain::AxisBoundary;
 use crate::material::dilatancy::Dilatancy;
 use crate::run::ForeignState;
 use crate::vector::{Tensor, Vector};
-use dilation::Swelling;
+use dilation::find_lifts;
 use drag::ColumnDrag;
 use friction::{Chain, FrictionSolve};
 use grid::ColumnGrid;
@@ -186,9 +186,8 @@ impl<const D: usize> Columns<D> {
         for column in 0..self.grid.row.count {
             self.rub(column, material, time_step)?;
             let range = self.grid.of_column(column);
-            let (fraction, target) = (&self.nodes.fraction[range.clone()], &self.nodes.target[range.clone()]);
-            let time = self.numerics.dilation_time;
-            Swelling { fraction, target, time }.lifts(&self.grid, &mut self.lift[range]);
+            let fractions = (&self.nodes.fraction[range.clone()], &self.nodes.target[range.clone()]);
+            find_lifts(&self.grid, fractions, self.numerics.dilation_time, &mut self.lift[range]);
         }
         self.scatter(material, time_step)
     }
