@@ -33,19 +33,9 @@ pub struct Projection<const D: usize> {
     pub mixture: Mixture<D>,
 }
 
-/// Whether the rows of a phase's pressure are there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum RowState {
-    /// Filled with those of its friction.
-    Filled,
-    /// To be filled.
-    Missing,
-}
-
 /// Inputs of the projection of one phase, besides the phase itself.
 struct Prediction<'a, const D: usize> {
     velocity: &'a [Vector<D>],
-    rows: RowState,
     correction: Correction,
     numerics: &'a ProjectionNumerics,
     domain: &'a Domain<D>,
@@ -71,20 +61,19 @@ impl<const D: usize> Projection<D> {
         let (of_fluid, of_sediment) = predicted.split_at(fluid.len());
         let first = fluid.len();
         let (numerics, domain) = (&scene.numerics, &scene.domain);
-        let prediction = |velocity, rows, correction| Prediction {
+        let prediction = |velocity, correction| Prediction {
             velocity,
-            rows,
             correction,
             numerics,
             domain,
             periods,
             time_step,
         };
-        project(fluid, &mut self.fluid, &prediction(of_fluid, RowState::Filled, Correction::Both))?;
+        project(fluid, &mut self.fluid, &prediction(of_fluid, Correction::Both))?;
         let (Some(sediment), Some(material)) = (sediment, &scene.sediment) else { return Ok(()) };
         let moved = match material.pressure {
             SedimentPressure::Incompressible => {
-                let prediction = prediction(of_sediment, RowState::Missing, Correction::CompressionOnly);
+                let prediction = prediction(of_sediment, Correction::CompressionOnly);
                 project(sediment, &mut self.sediment, &prediction)
             }
             SedimentPressure::AlongBed => {
@@ -106,17 +95,18 @@ fn project<const D: usize>(
     poisson: &mut PressurePoisson<D>,
     prediction: &Prediction<'_, D>,
 ) -> Result<(), Failure> {
-    let &Prediction { velocity, rows, correction, numerics, domain, periods, time_step } = prediction;
-    let mut rows = rows;
+    let &Prediction { velocity, correction, numerics, domain, periods, time_step } = prediction;
+    // those of the fluid were filled with those of its friction
+    let mut without_rows = correction == Correction::CompressionOnly;
     if numerics.pressure_source == PressureSource::Density {
         for (particle, velocity) in velocity.iter().enumerate() {
             phase.displace(particle, velocity * time_step);
         }
         // of the bed's friction, which was taken before, nothing is asked any more
         find_surroundings(phase, periods, numerics, Bed::Slip, Gradients::Skip);
-        rows = RowState::Missing;
+        without_rows = true;
     }
-    if rows == RowState::Missing {
+    if without_rows {
         let rows = poisson.rows(phase);
         fill_rows(phase, periods, numerics, rows, None);
     }
