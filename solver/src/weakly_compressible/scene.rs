@@ -109,7 +109,7 @@ impl<const D: usize> Scene<D> {
         self.check_parameters()?;
         self.check_values()?;
         self.enclosure.check(self.spacing, self.equation_of_state.sound_speed())?;
-        self.check_domain()
+        self.domain.check_periods(self.search_radius())
     }
 
     /// Arrays of one length, and empty only where an inlet feeds the flow.
@@ -211,19 +211,6 @@ impl<const D: usize> Scene<D> {
             for (quantity, value) in [("density", self.flow.density[particle]), ("mass", self.flow.mass[particle])] {
                 if !is_positive(value) {
                     return Err(SceneError::Value { quantity, particle, value, rule: "positive and finite" });
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Bounds that hold the reach of the kernel.
-    fn check_domain(&self) -> Result<(), SceneError> {
-        for (axis, boundary) in self.domain.axes.iter().enumerate() {
-            if let crate::domain::AxisBoundary::Periodic { lower, upper } = boundary {
-                let (length, least) = (upper - lower, self.search_radius());
-                if length.is_nan() || length < least {
-                    return Err(SceneError::Period { axis, length, least });
                 }
             }
         }

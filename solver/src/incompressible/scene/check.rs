@@ -41,7 +41,7 @@ impl<const D: usize> IncompressibleScene<D> {
                 refuse(Some(ParameterProblem::new(field, value, "positive and finite", "give it in SI units")))?;
             }
         }
-        self.check_periods(least_period)
+        self.domain.check_periods(least_period)
     }
 
     /// Requirements of columns of grains on the scene, and their existence where φ is taken from them.
@@ -59,19 +59,6 @@ impl<const D: usize> IncompressibleScene<D> {
             _ => return Ok(()),
         };
         refuse(Some(ParameterProblem::new(field, value, rule, "change one of both")))
-    }
-
-    /// No particle may see another one twice.
-    fn check_periods(&self, least: f64) -> Result<(), SceneError> {
-        for (axis, boundary) in self.domain.axes.iter().enumerate() {
-            if let AxisBoundary::Periodic { lower, upper } = boundary {
-                let length = upper - lower;
-                if length.is_nan() || length < least {
-                    return Err(SceneError::Period { axis, length, least });
-                }
-            }
-        }
-        Ok(())
     }
 }
 
