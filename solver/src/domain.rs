@@ -54,6 +54,16 @@ impl<const D: usize> Domain<D> {
         Ok(())
     }
 
+    /// The period of an axis `[m]`, or without one the range of coordinates along it.
+    pub(crate) fn extent(&self, axis: usize, coordinates: impl Iterator<Item = f64>) -> (f64, f64) {
+        match self.axes[axis] {
+            AxisBoundary::Periodic { lower, upper } => (lower, upper),
+            AxisBoundary::Open | AxisBoundary::Mirror { .. } => {
+                coordinates.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+            }
+        }
+    }
+
     /// Puts a position back into the period of every periodic axis.
     pub(crate) fn wrap(&self, position: &mut Vector<D>) {
         for (axis, boundary) in self.axes.iter().enumerate() {

@@ -36,12 +36,7 @@ impl<const D: usize> Grid<D> {
     /// Sorts the particles into cells of at least `size` `[m]`.
     pub fn sort(&mut self, positions: &[Vector<D>], domain: &Domain<D>, size: f64) {
         for axis in 0..D {
-            let (lower, upper) = match domain.axes[axis] {
-                AxisBoundary::Periodic { lower, upper } => (lower, upper),
-                AxisBoundary::Open | AxisBoundary::Mirror { .. } => positions
-                    .iter()
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x[axis]), high.max(x[axis]))),
-            };
+            let (lower, upper) = domain.extent(axis, positions.iter().map(|x| x[axis]));
             self.periodic[axis] = matches!(domain.axes[axis], AxisBoundary::Periodic { .. });
             let length = (upper - lower).max(size);
             self.cells[axis] = ((length / size).floor() as usize).clamp(1, MOST_CELLS);

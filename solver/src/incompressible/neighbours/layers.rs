@@ -66,12 +66,7 @@ impl<const D: usize> Layers<D> {
     ) {
         let normal = height_axis(D);
         let heights = phases.clone().flat_map(|phase| phase.free.iter().chain(phase.fixed)).map(|x| x[normal]);
-        let (lower, upper) = match domain.axes[normal] {
-            AxisBoundary::Periodic { lower, upper } => (lower, upper),
-            AxisBoundary::Open | AxisBoundary::Mirror { .. } => {
-                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)))
-            }
-        };
+        let (lower, upper) = domain.extent(normal, heights);
         self.periodic = matches!(domain.axes[normal], AxisBoundary::Periodic { .. });
         let count = (((upper - lower) / thickness) as usize).clamp(1, MOST_LAYERS);
         let per_height = count as f64 / (upper - lower).max(thickness);

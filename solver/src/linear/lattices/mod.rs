@@ -127,12 +127,7 @@ impl<const D: usize> Lattices<D> {
         let (mut lower, mut length) = ([0.0; D], [0.0; D]);
         for axis in 0..D {
             self.periodic[axis] = matches!(domain.axes[axis], AxisBoundary::Periodic { .. });
-            let (low, high) = match domain.axes[axis] {
-                AxisBoundary::Periodic { lower, upper } => (lower, upper),
-                AxisBoundary::Open | AxisBoundary::Mirror { .. } => positions
-                    .iter()
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x[axis]), high.max(x[axis]))),
-            };
+            let (low, high) = domain.extent(axis, positions.iter().map(|x| x[axis]));
             (lower[axis], length[axis]) = (low, (high - low).max(spacing));
         }
         let width = WIDTH * spacing;
