@@ -12,6 +12,7 @@ use super::super::scene::height_axis;
 use super::super::stratification::Stratification;
 use super::super::terms::viscous_pair;
 use super::pressure_rows::PressureRows;
+use super::surroundings::separation;
 use crate::kernel::Kernel;
 use crate::lanes::algebra::dot;
 use crate::lanes::{LANES, LaneIndices, LaneNumbers, LanePass, Lanes, Real, gather};
@@ -190,11 +191,7 @@ impl<const D: usize> Task<'_, '_, D> {
         let mut sums = RowSums { gradient: [zero; D], laplacian: zero, coupled: zero, near, largest: zero };
         for (k, chunk) in phase.free.first_of(global, active).enumerate() {
             let other = records::load::<V>(pairs.records, quads(D), &chunk);
-            let mut separation = [zero; D];
-            for axis in 0..D {
-                separation[axis] = own[axis] - other[axis];
-            }
-            let separation = pairs.periods.shortest_if(across, separation);
+            let separation = separation(&own, &other, pairs.periods, across);
             let measured = V::Single::load(&weights[k]);
             let weight = measured / (own_moment + other[D].max(-other[D])).narrow();
             let even = evened(&own, &other, &separation);

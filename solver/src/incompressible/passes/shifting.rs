@@ -4,10 +4,10 @@
 //! surface and beside it, where ∇C is that of the surface, and no more than a part of a spacing.
 
 use super::super::boundary::AT_SURFACE;
-use super::super::neighbours::{Across, LEAST_TASK, Periods};
+use super::super::neighbours::{LEAST_TASK, Periods};
 use super::super::numerics::ProjectionNumerics;
 use super::super::phase::{Phase, records};
-use crate::lanes::algebra::dot;
+use crate::lanes::algebra::{accumulate, difference, dot};
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, Real, gather, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
@@ -58,14 +58,14 @@ impl<const D: usize> LanePass for Shift<'_, D> {
             let near_surface = phase.nearness[group].iter().any(|&nearness| nearness > 0.0);
             for chunk in phase.free.group(global) {
                 let other = gather_vectors::<V, D>(&phase.position, &chunk);
-                let separation = separation(&own, &other, periods, across);
+                let separation = periods.shortest_if(across, difference(&own, &other));
                 let square = dot(&separation, &separation);
                 if square.less_mask(reach_squared) == 0 {
                     continue;
                 }
                 // W falls to zero at the reach: what lies beyond adds nothing, nor does padding, which is the own particle
                 let weight = V::widen(phase.kernel.gradient_weight(square.narrow(), volume));
-                add(&mut gradient, weight, &separation);
+                accumulate(&mut gradient, weight, &separation);
                 if near_surface {
                     deficit = deficit.max(gather::<V>(&phase.deficit, &chunk).where_less(weight, zero));
                 }
@@ -73,10 +73,10 @@ impl<const D: usize> LanePass for Shift<'_, D> {
             let candidates = phase.walls.counts::<V>(global);
             for (k, chunk) in phase.walls.group(global).enumerate() {
                 let other = gather_vectors::<V, D>(&phase.wall, &chunk);
-                let separation = separation(&own, &other, periods, across);
+                let separation = periods.shortest_if(across, difference(&own, &other));
                 let square = dot(&separation, &separation).narrow();
                 let weight = V::widen(phase.kernel.gradient_weight(square, volume));
-                add(&mut gradient, weight.where_less(V::splat(k as f64), candidates), &separation);
+                accumulate(&mut gradient, weight.where_less(V::splat(k as f64), candidates), &separation);
             }
             let deficit = deficit.to_array();
             let mut crowding = [[0.0; LANES]; D];
@@ -93,21 +93,5 @@ impl<const D: usize> LanePass for Shift<'_, D> {
                 *shift = if beside_surface { Vector::zeros() } else { bounded };
             }
         }
-    }
-}
-
-#[inline(always)]
-fn separation<V: Lanes, const D: usize>(own: &[V; D], other: &[V; D], periods: &Periods<D>, across: Across) -> [V; D] {
-    let mut separation = *own;
-    for axis in 0..D {
-        separation[axis] = own[axis] - other[axis];
-    }
-    periods.shortest_if(across, separation)
-}
-
-#[inline(always)]
-fn add<V: Lanes, const D: usize>(sums: &mut [V; D], weight: V, separation: &[V; D]) {
-    for axis in 0..D {
-        sums[axis] = sums[axis] + weight * separation[axis];
     }
 }

@@ -310,7 +310,7 @@ fn read<V: Lanes, const D: usize>(sums: &[[V; D]; D]) -> [[[f64; LANES]; D]; D] 
 
 /// x_a − x_b `[m]` of the nearest images of eight pairs of records.
 #[inline(always)]
-fn separation<V: Lanes, const D: usize>(
+pub(super) fn separation<V: Lanes, const D: usize>(
     own: &[V; records::FIELDS],
     other: &[V; records::FIELDS],
     periods: &Periods<D>,
