@@ -81,11 +81,11 @@ impl<const D: usize> IncompressibleSimulation<D> {
             exchange: phases.sediment.as_ref().map(|_| exchange.save()),
             grains: columns.as_ref().map(Columns::save),
             layers: search.save(),
-            mean_gradient: viscosities.mean_gradient().to_vec(),
-            change: system.change().to_vec(),
-            push: projection.mixture.push().to_vec(),
+            mean_gradient: viscosities.mean_gradient.clone(),
+            change: system.change.clone(),
+            push: projection.mixture.push.clone(),
             cost: self.cost(),
-            mixture_iterations: projection.mixture.iterations(),
+            mixture_iterations: projection.mixture.solver.iterations,
             time: self.state.time,
             steps: self.state.steps,
             last_step: self.state.last_step,
@@ -116,11 +116,11 @@ impl<const D: usize> State<D> {
         for rows in [saved.change.len(), saved.push.len()].into_iter().filter(|rows| *rows > 0) {
             ForeignState::check("rows of velocities", rows, particles)?;
         }
-        system.restore(saved.change, saved.cost.velocity_iterations);
+        (system.change, system.solver.iterations) = (saved.change, saved.cost.velocity_iterations);
         let of_fluid = saved.cost.fluid_pressure_iterations.saturating_sub(saved.mixture_iterations);
-        projection.fluid.count_from(of_fluid);
-        projection.sediment.count_from(saved.cost.sediment_pressure_iterations);
-        projection.mixture.restore(saved.push, saved.mixture_iterations);
+        projection.fluid.solver.iterations = of_fluid;
+        projection.sediment.solver.iterations = saved.cost.sediment_pressure_iterations;
+        (projection.mixture.push, projection.mixture.solver.iterations) = (saved.push, saved.mixture_iterations);
         (self.time, self.steps, self.last_step) = (saved.time, saved.steps, saved.last_step);
         Ok(())
     }

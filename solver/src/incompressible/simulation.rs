@@ -150,9 +150,9 @@ impl<const D: usize> IncompressibleSimulation<D> {
     pub fn cost(&self) -> SolverCost {
         let State { system, projection, search, .. } = &self.state;
         SolverCost {
-            velocity_iterations: system.iterations(),
-            fluid_pressure_iterations: projection.fluid.iterations() + projection.mixture.iterations(),
-            sediment_pressure_iterations: projection.sediment.iterations(),
+            velocity_iterations: system.solver.iterations,
+            fluid_pressure_iterations: projection.fluid.solver.iterations + projection.mixture.solver.iterations,
+            sediment_pressure_iterations: projection.sediment.solver.iterations,
             searches: search.searches,
         }
     }

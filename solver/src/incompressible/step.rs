@@ -25,7 +25,7 @@ fn advance<const D: usize>(state: &mut State<D>) -> Result<(), Failure> {
     state.search.search_if_due(&state.scene.domain, &mut state.phases, &mut state.exchange);
     measure(state);
     if let Some(columns) = &mut state.columns {
-        let (fluid, mean) = (&state.phases.fluid, state.viscosities.mean_gradient());
+        let (fluid, mean) = (&state.phases.fluid, &state.viscosities.mean_gradient);
         columns.gather(&mut state.scene, fluid, if mean.is_empty() { &fluid.velocity_gradient } else { mean })?;
     }
     state.viscosities.find(&state.scene, &state.phases, time_step);

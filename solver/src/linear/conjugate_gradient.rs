@@ -57,7 +57,8 @@ pub(crate) struct ConjugateGradient<T> {
     /// Sums of blocks.
     numbers: Vec<f64>,
     vectors: Vec<T>,
-    iterations: u64,
+    /// Of all solves.
+    pub(crate) iterations: u64,
 }
 
 impl<T: Unknown> Default for ConjugateGradient<T> {
@@ -75,16 +76,6 @@ impl<T: Unknown> Default for ConjugateGradient<T> {
 }
 
 impl<T: Unknown> ConjugateGradient<T> {
-    /// Goes on counting from so many iterations.
-    pub(crate) fn count_from(&mut self, iterations: u64) {
-        self.iterations = iterations;
-    }
-
-    /// Iterations of all solves.
-    pub(crate) fn iterations(&self) -> u64 {
-        self.iterations
-    }
-
     /// Improves `unknown` until `apply(unknown) = right_side`. `of_constant` is the operator times the constant vector
     /// of ones where that is to be deflated.
     ///

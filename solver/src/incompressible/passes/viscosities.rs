@@ -18,7 +18,7 @@ pub struct Viscosities<const D: usize> {
     /// Dynamic viscosity of every fluid particle `[Pa·s]`, times its voidage.
     pub fluid: Vec<f64>,
     /// ⟨∇u⟩ of every fluid particle `[1/s]`; empty before the first step, which starts it with ∇u.
-    mean_gradient: Vec<Tensor<D>>,
+    pub(crate) mean_gradient: Vec<Tensor<D>>,
     /// Shear rate of every fluid particle that its turbulence takes `[1/s]`.
     pub fluid_rate: Vec<f64>,
     /// Part 1 − φ of the space that the fluid has at every fluid particle `[-]`.
@@ -40,11 +40,6 @@ impl<const D: usize> Viscosities<D> {
             sediment: vec![0.0; free_sediment],
             load: vec![0.0; free_sediment],
         }
-    }
-
-    /// ⟨∇u⟩ of the fluid `[1/s]`.
-    pub(crate) fn mean_gradient(&self) -> &[Tensor<D>] {
-        &self.mean_gradient
     }
 
     /// Goes on from a saved ⟨∇u⟩ `[1/s]`, empty before the first step.

@@ -53,20 +53,10 @@ pub struct PressurePoisson<const D: usize> {
     gauge: Gauge,
     factors: IncompleteCholesky,
     lattices: Lattices<D>,
-    solver: ConjugateGradient<f64>,
+    pub(crate) solver: ConjugateGradient<f64>,
 }
 
 impl<const D: usize> PressurePoisson<D> {
-    /// Goes on counting from so many iterations.
-    pub(crate) fn count_from(&mut self, iterations: u64) {
-        self.solver.count_from(iterations);
-    }
-
-    /// Iterations of all solves.
-    pub(crate) fn iterations(&self) -> u64 {
-        self.solver.iterations()
-    }
-
     /// The rows of a phase's free particles, to be filled.
     pub(crate) fn rows(&mut self, phase: &Phase<D>) -> PressureRows<'_, D> {
         let count = phase.len();

@@ -39,11 +39,11 @@ pub struct VelocitySystem<const D: usize> {
     pub(crate) momentum: Vec<Vector<D>>,
     /// u* `[m/s]`.
     pub velocity: Vec<Vector<D>>,
-    /// u* − uⁿ of the last solve `[m/s]`.
-    change: Vec<Vector<D>>,
+    /// u* − uⁿ of the last solve `[m/s]`, where the next one starts.
+    pub(crate) change: Vec<Vector<D>>,
     inverse_diagonal: Vec<f64>,
     factors: IncompleteCholesky,
-    solver: ConjugateGradient<Vector<D>>,
+    pub(crate) solver: ConjugateGradient<Vector<D>>,
 }
 
 impl<const D: usize> VelocitySystem<D> {
@@ -62,22 +62,6 @@ impl<const D: usize> VelocitySystem<D> {
         self.coupled.resize(count, 0.0);
         let (couplings, width) = self.couplings.with_pattern((count, list.stride()), list.columns(), list.changes());
         FrictionRows { couplings, width, coupled: &mut self.coupled }
-    }
-
-    /// u* − uⁿ of the last solve `[m/s]`, where the next one starts.
-    pub(crate) fn change(&self) -> &[Vector<D>] {
-        &self.change
-    }
-
-    /// Goes on from the change of the last solve `[m/s]`, after so many iterations.
-    pub(crate) fn restore(&mut self, change: Vec<Vector<D>>, iterations: u64) {
-        self.change = change;
-        self.solver.count_from(iterations);
-    }
-
-    /// Iterations of all solves.
-    pub(crate) fn iterations(&self) -> u64 {
-        self.solver.iterations()
     }
 
     /// Solves for the velocities. `velocity` holds uⁿ before; the solve starts from there with the change of the last

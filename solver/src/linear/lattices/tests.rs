@@ -67,7 +67,7 @@ impl Springs {
         let criterion = Criterion { tolerance: 1e-6, most_iterations: 1000 };
         let apply = |p: &[f64], out: &mut [f64]| self.apply(p, out);
         solver.solve(&mut found, &right, &mut self.lattices(), None, criterion, apply).expect("a solution");
-        solver.iterations()
+        solver.iterations
     }
 }
 

@@ -58,11 +58,11 @@ pub struct Mixture<const D: usize> {
     right_side: Vec<f64>,
     deviation: Vec<f64>,
     /// Accelerations by all pressure of the last step, the fluid's particles first `[m/s²]`.
-    push: Vec<Vector<D>>,
+    pub(crate) push: Vec<Vector<D>>,
     /// Uniform pressure gradient of the last step `[Pa/m]`.
     pub(crate) mean_gradient: Vector<D>,
     lattices: Lattices<D>,
-    solver: ConjugateGradient<f64>,
+    pub(crate) solver: ConjugateGradient<f64>,
 }
 
 /// Both phases and the operators between them, as a solve reads them.
@@ -101,22 +101,6 @@ impl<const D: usize> Mixture<D> {
             lattices: Lattices::default(),
             solver: ConjugateGradient::default(),
         }
-    }
-
-    /// Accelerations by all pressure of the last step `[m/s²]`, with which the next one begins.
-    pub(crate) fn push(&self) -> &[Vector<D>] {
-        &self.push
-    }
-
-    /// Goes on from the accelerations of the last step `[m/s²]`, after so many iterations.
-    pub(crate) fn restore(&mut self, push: Vec<Vector<D>>, iterations: u64) {
-        self.push = push;
-        self.solver.count_from(iterations);
-    }
-
-    /// Iterations of all solves.
-    pub(crate) fn iterations(&self) -> u64 {
-        self.solver.iterations()
     }
 
     /// Coefficients at the present positions; the grain volumes are there.
