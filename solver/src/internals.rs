@@ -80,7 +80,7 @@ pub mod incompressible {
 
     /// Takes the pressure of a mixture out of a state.
     pub fn take_mixture(state: &mut State<2>) -> Mixture<2> {
-        std::mem::replace(&mut state.projection.mixture, Mixture::new())
+        std::mem::take(&mut state.projection.mixture)
     }
 
     /// State of a simulation.

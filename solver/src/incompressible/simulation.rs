@@ -209,6 +209,6 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// Uniform pressure gradient that has taken the mixture's mean flux out in the last step `[Pa/m]`.
     #[must_use]
     pub fn mean_pressure_gradient(&self) -> Vector<D> {
-        self.state.projection.mixture.mean_gradient
+        self.state.projection.mixture.mean_gradient.unwrap_or_else(Vector::zeros)
     }
 }

@@ -94,7 +94,7 @@ impl<const D: usize> State<D> {
             viscosities: Viscosities::new(&phases),
             columns,
             system: VelocitySystem::default(),
-            projection: Projection::new(),
+            projection: Projection::default(),
             shifts: Vec::new(),
             time: 0.0,
             steps: 0,

@@ -24,7 +24,7 @@ use crate::vector::Vector;
 use correction::Correction;
 
 /// The pressure Poisson equations of a run, reused from step to step.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Projection<const D: usize> {
     /// Pressure of the fluid.
     pub fluid: PressurePoisson<D>,
@@ -44,10 +44,6 @@ struct Prediction<'a, const D: usize> {
 }
 
 impl<const D: usize> Projection<D> {
-    pub(super) fn new() -> Self {
-        Self { fluid: PressurePoisson::default(), sediment: PressurePoisson::default(), mixture: Mixture::new() }
-    }
-
     /// Makes the predicted velocities of each phase free of divergence and moves its particles.
     pub(super) fn project_phases(
         &mut self,

@@ -35,7 +35,7 @@ use crate::vector::Vector;
 const ROUNDING: f64 = 1e-13;
 
 /// Arrays of the mixture's pressure solve besides the operators of the fluid, reused from step to step.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Mixture<const D: usize> {
     /// Grain volumes of the sediment, the free particles first and then the fixed `[m^D]`.
     grain_volume: Vec<f64>,
@@ -59,8 +59,8 @@ pub struct Mixture<const D: usize> {
     deviation: Vec<f64>,
     /// Accelerations by all pressure of the last step, the fluid's particles first `[m/s²]`.
     pub(crate) push: Vec<Vector<D>>,
-    /// Uniform pressure gradient of the last step `[Pa/m]`.
-    pub(crate) mean_gradient: Vector<D>,
+    /// Uniform pressure gradient of the last step `[Pa/m]`; none where the flux is free.
+    pub(crate) mean_gradient: Option<Vector<D>>,
     lattices: Lattices<D>,
     pub(crate) solver: ConjugateGradient<f64>,
 }
@@ -82,27 +82,6 @@ pub struct Operators<'a, const D: usize> {
 }
 
 impl<const D: usize> Mixture<D> {
-    pub(crate) fn new() -> Self {
-        Self {
-            grain_volume: Vec::new(),
-            cross: Vec::new(),
-            fluid_mobility: Vec::new(),
-            sediment_mobility: Vec::new(),
-            mobility: Vec::new(),
-            held: Vec::new(),
-            weighted: Vec::new(),
-            fluid_change: Vec::new(),
-            sediment_change: Vec::new(),
-            inverse_diagonal: Vec::new(),
-            right_side: Vec::new(),
-            deviation: Vec::new(),
-            push: Vec::new(),
-            mean_gradient: Vector::zeros(),
-            lattices: Lattices::default(),
-            solver: ConjugateGradient::default(),
-        }
-    }
-
     /// Coefficients at the present positions; the grain volumes are there.
     pub fn assemble(&mut self, operators: &Operators<'_, D>, fluid: &Phase<D>, sediment: &Phase<D>) {
         let count = fluid.len();

@@ -51,7 +51,7 @@ impl<const D: usize> Mixture<D> {
         let Flux { scene, exchange, voidage, time_step, .. } = *flux;
         let numerics = &scene.numerics;
         let Phases { fluid, sediment: Some(sediment) } = phases else { return Ok(()) };
-        self.mean_gradient = Vector::zeros();
+        self.mean_gradient = None;
         self.find_grain_volumes(scene, sediment);
         for (velocity, push) in predicted.iter_mut().zip(&mut self.push) {
             *velocity -= *push * time_step;
@@ -122,7 +122,7 @@ impl<const D: usize> Mixture<D> {
         }
         let along = Vector::from_fn(|axis, _| if flux.periods.has(axis) { sum[axis] } else { 0.0 });
         let gradient = along / (mobility * time_step);
-        self.mean_gradient += gradient;
+        *self.mean_gradient.get_or_insert_with(Vector::zeros) += gradient;
         for (row, velocity) in predicted.iter_mut().enumerate() {
             *velocity -= gradient * (time_step / density(row));
         }
