@@ -44,7 +44,7 @@ impl<const D: usize> State<D> {
         let solve = ViscousSolve { model: &self.model, pairs: &self.pairs, time_step };
         match solve.run(&mut self.particles, &self.images, &mut self.viscous) {
             Ok(()) => {
-                self.energy.viscous -= self.viscous.work();
+                self.energy.viscous -= self.viscous.work;
                 self.book_reaction(time_step);
                 Ok(())
             }

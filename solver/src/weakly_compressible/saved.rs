@@ -53,8 +53,8 @@ impl<const D: usize> Simulation<D> {
             side_wall_impulse: self.state.side_wall_impulse,
             list: Cow::Borrowed(&model.list),
             energy: *energy,
-            searches: search.count(),
-            viscous_iterations: viscous.iterations(),
+            searches: search.count,
+            viscous_iterations: viscous.iterations,
             time: self.state.time,
             steps: self.state.steps,
             largest_speed: self.state.largest_speed,
@@ -118,8 +118,8 @@ impl<const D: usize> Simulation<D> {
         state.model.list = list;
         state.energy = saved.energy;
         state.side_wall_impulse = saved.side_wall_impulse;
-        state.search.count_from(saved.searches);
-        state.viscous.count_from(saved.viscous_iterations);
+        state.search.count = saved.searches;
+        state.viscous.iterations = saved.viscous_iterations;
         state.time = saved.time;
         state.steps = saved.steps;
         state.largest_speed = saved.largest_speed;

@@ -21,14 +21,8 @@ pub(crate) struct Search<const D: usize> {
     identities: Vec<u32>,
     /// And of what a law keeps beside its field.
     memories: Vec<Memory<f64>>,
-    count: u64,
-}
-
-/// A particle with more neighbours than a list row can hold: the flow has collapsed onto itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Crowded {
-    /// Its storage index.
-    pub(crate) particle: usize,
+    /// Searches done.
+    pub(crate) count: u64,
 }
 
 impl<const D: usize> Search<D> {
@@ -45,26 +39,16 @@ impl<const D: usize> Search<D> {
         }
     }
 
-    /// Goes on counting from so many searches.
-    pub(crate) fn count_from(&mut self, count: u64) {
-        self.count = count;
-    }
-
-    /// Searches done.
-    pub(crate) fn count(&self) -> u64 {
-        self.count
-    }
-
     /// Sorts the flow by cell, makes the images anew and fills the neighbour list.
     ///
     /// # Errors
-    /// A particle with too many neighbours.
+    /// The storage index of a particle with more neighbours than a list row can hold: the flow has collapsed onto itself.
     pub(crate) fn run(
         &mut self,
         particles: &mut Particles<D>,
         images: &mut Images<D>,
         model: &mut Model<D>,
-    ) -> Result<(), Crowded> {
+    ) -> Result<(), usize> {
         let radius = model.kernel.support() + model.skin();
         let (flow, real) = (particles.flow_count(), particles.real_count());
         particles.keep_real();
@@ -95,10 +79,7 @@ impl<const D: usize> Search<D> {
         }
         let grids = (&self.flow_grid, &self.wall_grid);
         self.count += 1;
-        model
-            .list
-            .rebuild(&particles.position, flow, real, radius, grids, model.instruction_set)
-            .map_err(|particle| Crowded { particle })
+        model.list.rebuild(&particles.position, flow, real, radius, grids, model.instruction_set)
     }
 
     /// Brings the flow back through periods and mirrors, and walls through periods; what a mirror pushes back is support.

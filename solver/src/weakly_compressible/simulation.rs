@@ -235,13 +235,13 @@ impl<const D: usize> Simulation<D> {
     /// Neighbour searches done, the first included.
     #[must_use]
     pub fn neighbour_searches(&self) -> u64 {
-        self.state.search.count()
+        self.state.search.count
     }
 
     /// Iterations of all implicit viscous steps: what they have cost.
     #[must_use]
     pub fn viscous_iterations(&self) -> u64 {
-        self.state.viscous.iterations()
+        self.state.viscous.iterations
     }
 
     /// The particles.

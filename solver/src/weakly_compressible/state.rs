@@ -134,7 +134,7 @@ impl<const D: usize> State<D> {
             return Err(self.diverged(found));
         }
         filled.map_err(|crowded| {
-            self.divergence(crowded.particle, Quantity::Neighbours { limit: LARGEST_ROW }, LARGEST_ROW as f64)
+            self.divergence(crowded, Quantity::Neighbours { limit: LARGEST_ROW }, LARGEST_ROW as f64)
         })
     }
 

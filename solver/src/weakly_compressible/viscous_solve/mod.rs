@@ -91,9 +91,9 @@ impl<const D: usize> ViscousSolve<'_, D> {
             MOST_ITERATIONS,
         );
         match solved {
-            Ok(iterations) => system.count(iterations),
+            Ok(iterations) => system.iterations += iterations as u64,
             Err(Stalled { square }) => {
-                system.set_residual((square / start).sqrt());
+                system.residual = (square / start).sqrt();
                 return Err(NotConverged { worst: system.worst(flow) });
             }
         }

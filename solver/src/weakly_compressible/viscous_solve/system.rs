@@ -77,9 +77,10 @@ pub struct ViscousSystem<const D: usize> {
     /// s L of every flow particle and image; before the iteration √(η/V) L, for the diagonal.
     pub(super) stresses: Records,
     pub(super) sums: Vec<BlockSums>,
-    iterations: u64,
-    residual: f64,
-    work: f64,
+    pub(crate) iterations: u64,
+    pub(super) residual: f64,
+    /// Work of the last solve `[J]`: that of the viscous forces beside those of the explicit step.
+    pub(crate) work: f64,
 }
 
 impl<const D: usize> ViscousSystem<D> {
@@ -97,11 +98,6 @@ impl<const D: usize> ViscousSystem<D> {
         }
     }
 
-    /// Goes on counting from so many iterations.
-    pub(crate) fn count_from(&mut self, iterations: u64) {
-        self.iterations = iterations;
-    }
-
     /// Iterations of all solves.
     pub fn iterations(&self) -> u64 {
         self.iterations
@@ -110,14 +106,6 @@ impl<const D: usize> ViscousSystem<D> {
     /// Relative residual of the solve that failed `[-]`.
     pub fn residual(&self) -> f64 {
         self.residual
-    }
-
-    pub(super) fn count(&mut self, iterations: usize) {
-        self.iterations += iterations as u64;
-    }
-
-    pub(super) fn set_residual(&mut self, residual: f64) {
-        self.residual = residual;
     }
 
     /// Room for the particles and for neighbour lists with `region` chunks a block.
@@ -154,16 +142,16 @@ impl<const D: usize> ViscousSystem<D> {
 
     /// Copies stresses to the images.
     pub(crate) fn copy_stresses(&mut self, images: &Images<D>) {
-        copy_tensors(&mut self.stresses, images);
+        for (slot, source, sign) in images.entries() {
+            // row by row as in a record; symmetric, so that nalgebra's order by columns is the same
+            let signs: Tensor<D> = sign * sign.transpose();
+            self.stresses.copy_signed(slot, source, signs.as_slice());
+        }
     }
 
     /// A sum over all blocks, in order.
     pub(super) fn sum(&self, part: impl Fn(&BlockSums) -> f64) -> f64 {
-        let mut sum = 0.0;
-        for block in &self.sums {
-            sum += part(block);
-        }
-        sum
+        self.sums.iter().map(part).sum()
     }
 
     /// The particle with the largest residual acceleration, or the first whose is not a number.
@@ -197,18 +185,5 @@ impl<const D: usize> ViscousSystem<D> {
     /// Impulse that the last solve has left out `[kg m/s]`: the sum of its residuals, in the order of the particles in memory.
     pub(crate) fn left(&self, flow: usize) -> Vector<D> {
         (0..flow).map(|index| lane(&self.unknowns[index / LANES].residual, index % LANES)).sum()
-    }
-
-    /// Work of the last solve `[J]`: that of the viscous forces beside those of the explicit step.
-    pub(crate) fn work(&self) -> f64 {
-        self.work
-    }
-}
-
-fn copy_tensors<const D: usize>(records: &mut Records, images: &Images<D>) {
-    for (slot, source, sign) in images.entries() {
-        // row by row as in a record; symmetric, so that nalgebra's order by columns is the same
-        let signs: Tensor<D> = sign * sign.transpose();
-        records.copy_signed(slot, source, signs.as_slice());
     }
 }
