@@ -253,7 +253,7 @@ impl<V: Lanes> VelocityWork<V> {
 
 /// The lanes added in their order.
 #[inline(always)]
-fn sum_of_lanes<V: Lanes>(lanes: V) -> f64 {
+pub(crate) fn sum_of_lanes<V: Lanes>(lanes: V) -> f64 {
     lanes.to_array().iter().sum()
 }
 

@@ -2,7 +2,7 @@
 
 use super::ViscousSolve;
 use super::system::{BlockSums, Coefficients, GROUPS, LaneVector, Unknowns, ViscousSystem};
-use super::update::{add_lanes, load_columns, store_columns, store_record};
+use super::update::{load_columns, store_columns, store_record};
 use crate::lanes::algebra::{
     accumulate, deviatoric_rate, difference, dot, invariant, load, load_tensor, load_vector, product, scaled_tensor,
     zero_vector,
@@ -10,6 +10,7 @@ use crate::lanes::algebra::{
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::material::turbulence::dynamic_eddy_viscosity;
 use crate::parallel::prelude::*;
+use crate::weakly_compressible::energy::sum_of_lanes;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
@@ -207,6 +208,6 @@ impl<const D: usize> LanePass for ResidualPass<'_, D> {
             unknowns.increment = [[0.0; LANES]; D];
             unknowns.direction = [[0.0; LANES]; D];
         }
-        *sums = BlockSums { residual: add_lanes(residual_sum), descent: add_lanes(descent), curvature: 0.0 };
+        *sums = BlockSums { residual: sum_of_lanes(residual_sum), descent: sum_of_lanes(descent), curvature: 0.0 };
     }
 }

@@ -7,6 +7,7 @@ use crate::lanes::algebra::{
 };
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;
+use crate::weakly_compressible::energy::sum_of_lanes;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::passes::records::{self, Records};
 
@@ -75,16 +76,6 @@ impl<const D: usize> ViscousSolve<'_, D> {
             },
         );
     }
-}
-
-/// The sum of eight lanes, in order.
-#[inline(always)]
-pub(super) fn add_lanes<V: Lanes>(lanes: V) -> f64 {
-    let mut sum = 0.0;
-    for value in lanes.to_array() {
-        sum += value;
-    }
-    sum
 }
 
 /// A vector's components, each for eight particles.
@@ -223,7 +214,7 @@ impl<const D: usize> LanePass for DivergencePass<'_, D> {
                 unknowns.product[i] = product.to_array();
             }
         }
-        sums.curvature = add_lanes(curvature);
+        sums.curvature = sum_of_lanes(curvature);
     }
 }
 
@@ -250,7 +241,7 @@ impl<const D: usize> LanePass for DescentPass<'_, D> {
                 descent = descent + residual * residual * inverse;
             }
         }
-        self.sums.residual = add_lanes(residual_sum);
-        self.sums.descent = add_lanes(descent);
+        self.sums.residual = sum_of_lanes(residual_sum);
+        self.sums.descent = sum_of_lanes(descent);
     }
 }
