@@ -237,7 +237,7 @@ impl<const D: usize> Particles<D> {
         }
         if let Some(memory) = &mut self.memory {
             resize(memory, real, total, Memory::default());
-            images.copy_memories(memory);
+            images.copy_scalars(memory);
         }
         images.copy_positions(&mut self.position);
         images.copy_vectors(&mut self.velocity);

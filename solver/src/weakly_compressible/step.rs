@@ -102,7 +102,7 @@ impl<const D: usize> State<D> {
             self.images.copy_scalars(field);
         }
         if let Some(memory) = &mut self.particles.memory {
-            self.images.copy_memories(memory);
+            self.images.copy_scalars(memory);
         }
     }
 

@@ -7,8 +7,8 @@ use super::pair_weights::{Weighing, Weights, flush_tensor, flush_vector};
 use super::precision::Precision;
 use super::records::{self, Records};
 use crate::lanes::algebra::{
-    accumulate, deviatoric_rate, load, load_tensor, matrix_product, product, store, store_tensor, store_vector,
-    zero_tensor, zero_vector,
+    accumulate, deviatoric_rate, load, load_tensor, matrix_product, product, scaled_tensor, store, store_tensor,
+    store_vector, zero_tensor, zero_vector,
 };
 use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real, store_symmetric};
 use crate::parallel::prelude::*;
@@ -201,11 +201,8 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
 /// I + β (E − I).
 #[inline(always)]
 fn shared_correction<V: Lanes, const D: usize>(whole: &[[V; D]; D], share: f64) -> [[V; D]; D] {
-    let mut lanes = zero_tensor::<V, D>();
+    let mut lanes = scaled_tensor(V::splat(share), whole);
     for i in 0..D {
-        for j in 0..D {
-            lanes[i][j] = V::splat(share) * whole[i][j];
-        }
         lanes[i][i] = lanes[i][i] + V::splat(1.0 - share);
     }
     lanes

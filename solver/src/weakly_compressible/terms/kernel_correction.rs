@@ -111,10 +111,7 @@ fn gershgorin_bound<V: Lanes, const D: usize>(m: &[[V; D]; D]) -> V {
 
 fn smallest_eigenvalue_in_space<const D: usize>(m: &Tensor<D>) -> f64 {
     let mean = m.trace() / D as f64;
-    let mut deviator = *m;
-    for i in 0..D {
-        deviator[(i, i)] -= mean;
-    }
+    let deviator = crate::vector::deviator(m);
     let scale = (crate::vector::double_contraction(&deviator, &deviator) / 6.0).sqrt();
     if scale < 1e-14 * mean.abs() {
         return mean;

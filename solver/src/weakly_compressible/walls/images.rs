@@ -4,7 +4,6 @@
 //! components of tensors that couple normal and tangent, change their sign.
 
 use crate::domain::{AxisBoundary, Domain};
-use crate::material::rheology::field::Memory;
 use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
 use serde::{Deserialize, Serialize};
@@ -180,12 +179,9 @@ impl<const D: usize> Images<D> {
         self.copy(field, |value, image| image.sign.component_mul(value));
     }
 
-    pub(crate) fn copy_scalars(&self, field: &mut [f64]) {
+    /// Of numbers, or of what a law keeps: what a mirror leaves as it is.
+    pub(crate) fn copy_scalars<T: Copy + Send + Sync>(&self, field: &mut [T]) {
         self.copy(field, |value, _| *value);
-    }
-
-    pub(crate) fn copy_memories(&self, memories: &mut [Memory<f64>]) {
-        self.copy(memories, |value, _| *value);
     }
 
     pub(crate) fn copy_tensors(&self, field: &mut [Tensor<D>]) {
