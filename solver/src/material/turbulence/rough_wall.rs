@@ -40,13 +40,6 @@ impl RoughWall {
         friction_velocity / VON_KARMAN * libm::log(distance.max(self.roughness_length()) / self.roughness_length())
     }
 
-    /// Friction velocity u_* ≥ 0 `[m/s]` of a velocity along the wall `[m/s]` at a distance z′ `[m]` from the origin.
-    #[inline]
-    #[must_use]
-    pub fn friction_velocity(&self, velocity: f64, distance: f64) -> f64 {
-        VON_KARMAN * velocity.abs() / self.logarithm(distance)
-    }
-
     /// Shear stress τ = ρ u_*² `[Pa]` of the flow on the wall, with the sign of the velocity along the wall `[m/s]`, at a
     /// distance z′ `[m]` from the origin and a density `[kg/m³]`.
     #[inline]
@@ -90,7 +83,6 @@ mod tests {
     fn finds_the_friction_velocity_of_its_own_profile() {
         for distance in [5e-4, 1.6e-3, 4e-2] {
             let velocity = BED.velocity(distance, 0.116);
-            assert!((BED.friction_velocity(velocity, distance) - 0.116).abs() < 1e-15);
             assert!((BED.shear_stress(velocity, distance, 1000.0) - 13.456).abs() < 1e-11);
             assert!((BED.shear_stress(-velocity, distance, 1000.0) + 13.456).abs() < 1e-11);
         }

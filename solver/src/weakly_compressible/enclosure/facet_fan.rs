@@ -76,7 +76,7 @@ impl Fan {
 }
 
 /// A vector with another number of axes.
-fn of<const D: usize, const E: usize>(vector: &Vector<D>) -> Vector<E> {
+pub(super) fn of<const D: usize, const E: usize>(vector: &Vector<D>) -> Vector<E> {
     Vector::from_fn(|axis, _| if axis < D { vector[axis] } else { 0.0 })
 }
 

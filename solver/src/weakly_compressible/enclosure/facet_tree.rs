@@ -1,7 +1,7 @@
 //! A tree of boxes over facets: finds the nearest of them for the set-up, in a time that hardly grows with their number.
 
 use super::facet::Facet;
-use super::facet_fan::Fan;
+use super::facet_fan::{self, Fan};
 use super::facet_side::{FacetSide, TIE, facet_side};
 use crate::vector::{Tensor, Vector};
 
@@ -87,10 +87,6 @@ enum Content {
     Boxes(u32),
 }
 
-fn in_space<const D: usize>(place: &Vector<D>) -> Vector<3> {
-    Vector::<3>::from_fn(|axis, _| if axis < D { place[axis] } else { 0.0 })
-}
-
 /// Adds the halves of a triangle's longest edges, down to a size `[m]`: the one box of a long thin triangle holds much beside it.
 fn add_pieces(corners: &Triangle, size: f64, depth: u8, pieces: &mut Vec<Triangle>) {
     let [a, b, c] = *corners;
@@ -109,7 +105,7 @@ impl FacetTree {
     /// The tree by which facets nearer than `range` `[m]` are found.
     #[must_use]
     pub fn new<const D: usize>(facets: &[Facet<D>], range: f64) -> Self {
-        let corner = |facet: &Facet<D>, k: usize| in_space(&facet.corners[k.min(D - 1)]);
+        let corner = |facet: &Facet<D>, k: usize| facet_fan::of(&facet.corners[k.min(D - 1)]);
         let triangles: Vec<_> = facets.iter().map(|facet| [0, 1, 2].map(|k| corner(facet, k))).collect();
         Self { fans: Fan::all(facets), ..Self::of_triangles(&triangles, range) }
     }
@@ -215,7 +211,7 @@ impl FacetTree {
         distance: f64,
         look: impl FnOnce(usize),
     ) -> Option<FacetSide> {
-        let (at, within) = (in_space(place), distance.min(self.range));
+        let (at, within) = (facet_fan::of(place), distance.min(self.range));
         let distance_of = |facet: u32| (place - facets[facet as usize].nearest(place)).norm();
         let tip = self.fans.iter().find_map(|fan| Some((fan, fan.distance(&at).filter(|least| *least <= within)?)));
         if let Some((fan, least)) = tip {

@@ -5,7 +5,7 @@
 //! particles is theirs, wall by wall, and what images behind a mirror give is that plane's.
 
 use super::ViscousSolve;
-use super::system::{GROUPS, LaneVector, ViscousSystem};
+use super::system::{GROUPS, ViscousSystem};
 use super::update::load_columns;
 use crate::lanes::algebra::{accumulate, difference, product, scaled, store_vector, zero_tensor, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
@@ -14,7 +14,7 @@ use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
-use crate::weakly_compressible::passes::records::{self, Records};
+use crate::weakly_compressible::passes::records;
 use crate::weakly_compressible::passes::shell_impulse::{Booking, NO_OWNER};
 use crate::weakly_compressible::terms::{no_slip, wall_slip};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
@@ -40,17 +40,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
         let width = walls.max(1);
         (support.par_chunks_mut(BLOCK), impulses.par_chunks_mut(width)).enumerate().with_min_len(4).for_each(
             |(block, (support, out))| {
-                let pass = ReactionPass {
-                    constants: self,
-                    particles: shared,
-                    stresses: &system.stresses,
-                    pair_vectors: &system.pair_vectors,
-                    volumes: system,
-                    owners,
-                    block,
-                    support,
-                    out,
-                };
+                let pass = ReactionPass { constants: self, particles: shared, system, owners, block, support, out };
                 self.model.instruction_set.run(pass);
             },
         );
@@ -61,9 +51,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
 struct ReactionPass<'a, const D: usize> {
     constants: &'a ViscousSolve<'a, D>,
     particles: &'a Particles<D>,
-    stresses: &'a Records,
-    pair_vectors: &'a [LaneVector<D>],
-    volumes: &'a ViscousSystem<D>,
+    system: &'a ViscousSystem<D>,
     owners: &'a [u32],
     block: usize,
     support: &'a mut [Vector<D>],
@@ -73,17 +61,17 @@ struct ReactionPass<'a, const D: usize> {
 impl<const D: usize> LanePass for ReactionPass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { constants, particles, stresses, pair_vectors, volumes, owners, block, support, out } = self;
+        let Self { constants, particles, system, owners, block, support, out } = self;
         let quads = const { (D * D).div_ceil(4) };
         let places = const { layout::geometry(D).div_ceil(4) };
         let smoothing_length = constants.model.kernel.smoothing_length();
         for offset in 0..support.len().div_ceil(LANES) {
             let group = constants.model.list.group(block * GROUPS + offset);
             let count = (support.len() - offset * LANES).min(LANES);
-            let coefficients = &volumes.coefficients[block * GROUPS + offset];
+            let coefficients = &system.coefficients[block * GROUPS + offset];
             let impulse_volume = V::load(&coefficients.impulse_volume);
-            let own = records::tensor::<V, D>(&stresses.load::<V>(quads, &group.own), 0);
-            let increment = records::vector::<V, D>(&volumes.velocities.load::<V>(1, &group.own), 0);
+            let own = records::tensor::<V, D>(&system.stresses.load::<V>(quads, &group.own), 0);
+            let increment = records::vector::<V, D>(&system.velocities.load::<V>(1, &group.own), 0);
             let mut correction = zero_tensor::<V, D>();
             for i in 0..D {
                 correction[i] = load_columns(&coefficients.correction[i]);
@@ -91,9 +79,9 @@ impl<const D: usize> LanePass for ReactionPass<'_, D> {
             let (shared, hold) = (V::load(&coefficients.shared), V::load(&coefficients.hold));
             let mut all = zero_vector::<V, D>();
             if group.has_images {
-                for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
+                for (b, pair) in group.flow.zip(&system.pair_vectors[group.first_pair..]) {
                     let mirrored: V = mirrored_lanes(&particles.mirrored, particles.real_count(), &b);
-                    let other = records::tensor::<V, D>(&stresses.load::<V>(quads, &b), 0);
+                    let other = records::tensor::<V, D>(&system.stresses.load::<V>(quads, &b), 0);
                     let pair = load_columns::<V, D>(pair);
                     accumulate(&mut all, mirrored, &product(&own, &pair));
                     accumulate(&mut all, mirrored, &product(&other, &pair));
