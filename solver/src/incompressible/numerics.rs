@@ -1,7 +1,7 @@
 //! The numerical choices of an incompressible run; the default is the recipe, [`ProjectionNumerics::paper`] the
 //! bed-load paper's own set.
 
-use crate::parameter::{ParameterProblem, between, range_problem};
+use crate::parameter::between;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -202,14 +202,6 @@ impl Default for ColumnNumerics {
     }
 }
 
-impl ColumnNumerics {
-    /// The first field outside its range, if any.
-    #[must_use]
-    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
-        range_problem(self)
-    }
-}
-
 impl Default for ProjectionNumerics {
     fn default() -> Self {
         Self {
@@ -260,11 +252,5 @@ impl ProjectionNumerics {
             mean_flow_time: 0.0,
             ..Self::default()
         }
-    }
-
-    /// The first field outside its range, if any.
-    #[must_use]
-    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
-        range_problem(self)
     }
 }

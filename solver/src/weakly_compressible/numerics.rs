@@ -2,7 +2,7 @@
 
 use crate::kernel::KernelShape;
 use crate::material::rheology::Rheology;
-use crate::parameter::{ParameterProblem, between, range_problem, up_to};
+use crate::parameter::{ParameterProblem, between, up_to};
 use crate::weakly_compressible::walls::{Surface, WallTreatment};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -262,11 +262,5 @@ impl Numerics {
             let remedy = "choose one of these, or a law without a field, such as \"mu-i\"";
             ParameterProblem::new("momentum_operator", operator, rule, remedy)
         })
-    }
-
-    /// The first field outside its range, if any.
-    #[must_use]
-    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
-        range_problem(self)
     }
 }

@@ -5,7 +5,7 @@ use crate::material::equation_of_state::EquationOfState;
 use crate::material::pore_liquid::PoreLiquid;
 use crate::material::rheology::Rheology;
 use crate::material::rheology::field::Memory;
-use crate::parameter::ParameterProblem;
+use crate::parameter::{ParameterProblem, range_problem};
 use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::enclosure::BoundarySet;
@@ -162,9 +162,7 @@ impl<const D: usize> Scene<D> {
         }
         let facet_walls = self.enclosure.walls.iter().map(|wall| wall.roughness);
         let mut surfaces = self.walls.iter().map(|wall| wall.roughness).chain(facet_walls);
-        let problem = self
-            .numerics
-            .parameter_problem()
+        let problem = range_problem(&self.numerics)
             .or_else(|| self.rheology.parameter_problem())
             .or_else(|| surfaces.find_map(|roughness| self.numerics.wall_problem(roughness)))
             .or_else(|| self.numerics.step_problem(&self.rheology))

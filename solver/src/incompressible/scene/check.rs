@@ -2,7 +2,7 @@
 
 use super::{IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure, SolidFraction};
 use crate::domain::AxisBoundary;
-use crate::parameter::ParameterProblem;
+use crate::parameter::{ParameterProblem, range_problem};
 use crate::run::SceneError;
 
 impl<const D: usize> IncompressibleScene<D> {
@@ -13,7 +13,7 @@ impl<const D: usize> IncompressibleScene<D> {
     pub fn check(&self) -> Result<(), SceneError> {
         let fluid = &self.fluid;
         check_set(&fluid.particles)?;
-        refuse(self.numerics.parameter_problem())?;
+        refuse(range_problem(&self.numerics))?;
         let mut lengths = vec![("spacing", fluid.spacing), ("density", fluid.density)];
         lengths.push(("kinematic_viscosity", fluid.kinematic_viscosity));
         let mut least_period = 4.0 * self.numerics.smoothing_ratio * fluid.spacing;
@@ -80,7 +80,7 @@ impl<const D: usize> Sediment<D> {
             refuse(Some(ParameterProblem::new("buoyant_weight", buoyant_weight, rule, remedy)))?;
         }
         if let SedimentPressure::Dilatant { columns, turbulent_schmidt, .. } = self.pressure {
-            refuse(columns.parameter_problem())?;
+            refuse(range_problem(&columns))?;
             if !(turbulent_schmidt >= 0.0 && turbulent_schmidt.is_finite()) {
                 let (rule, remedy) =
                     ("0 or positive, and finite", "give 0.4 to 1 for suspensions, 0 for no dispersion");

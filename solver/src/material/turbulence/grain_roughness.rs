@@ -10,7 +10,7 @@
 //! the room between them carries the eddies then, and the roughness, which it replaces, fades with it. D counts only
 //! room that lies between grains: neither packed grains nor clear water have any.
 
-use crate::parameter::{ParameterProblem, between, positive, range_problem};
+use crate::parameter::{between, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -48,18 +48,13 @@ impl GrainRoughness {
     pub fn room(&self, loosened: f64, grain_diameter: f64) -> f64 {
         self.origin_depth * grain_diameter * libm::exp(-loosened / (self.bed_roughness_fade_length * grain_diameter))
     }
-
-    /// The first parameter outside its range, if any.
-    #[must_use]
-    pub fn parameter_problem(&self) -> Option<ParameterProblem> {
-        range_problem(self)
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::material::turbulence::{MixingLength, MixingLengthShape, StratifiedMixingLength};
+    use crate::parameter::range_problem;
 
     #[test]
     fn resting_grains_under_clear_water_are_a_rough_wall() {
@@ -97,8 +92,8 @@ mod tests {
     #[test]
     fn a_roughness_that_cannot_fade_is_refused() {
         let roughness = GrainRoughness::default();
-        assert!(roughness.parameter_problem().is_none());
-        let field = |roughness: GrainRoughness| roughness.parameter_problem().map(|problem| problem.field);
+        assert!(range_problem(&roughness).is_none());
+        let field = |roughness: GrainRoughness| range_problem(&roughness).map(|problem| problem.field);
         assert_eq!(
             field(GrainRoughness { bed_roughness_fade_length: 0.0, ..roughness }),
             Some("bed_roughness_fade_length".to_owned())
