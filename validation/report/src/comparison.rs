@@ -18,12 +18,6 @@ pub struct Comparison<'r> {
     pub metric: &'r Metric,
     /// Prediction less reference.
     pub error: f64,
-    /// Standard uncertainty by spacing and repetitions; none where it is not known.
-    pub numerical: Option<f64>,
-    /// By the inputs; none where it is not known.
-    pub input: Option<f64>,
-    /// Of the reference; none where it is not known.
-    pub reference: Option<f64>,
 }
 
 /// Statement of a comparison about the error of the model.
@@ -54,15 +48,7 @@ impl<'r> Comparison<'r> {
     /// The comparison that a metric is; none of a metric that is not compared with a number from outside.
     fn of(case: &'r str, metric: &'r Metric) -> Option<Self> {
         let error = metric.value - metric.compared_with()?;
-        let part = |part| metric.uncertainty.of_part(part);
-        error.is_finite().then(|| Self {
-            case,
-            metric,
-            error,
-            numerical: part(ComparisonPart::Numerical),
-            input: part(ComparisonPart::Input),
-            reference: part(ComparisonPart::Reference),
-        })
+        error.is_finite().then_some(Self { case, metric, error })
     }
 
     /// The reference, in the metric's unit.

@@ -24,7 +24,7 @@ pub(super) fn render(report: &Report, scatter: Vec<Value>) -> Option<Result<Stri
         "beyond": count(1),
         "partly": count(2),
         "unknown": count(3),
-        "without_input": all().filter(|compared| compared.input.is_none()).count(),
+        "without_input": all().filter(|compared| compared.unknown().contains(&ComparisonPart::Input)).count(),
         "levels": levels(all()),
         "scatter": scatter,
         "quantities": groups.iter().map(quantity).collect::<Vec<_>>(),
@@ -87,11 +87,7 @@ fn row(compared: &Comparison<'_>) -> Value {
         "reference": reference.and_then(|reference| reference.value).map(unit).unwrap_or_default(),
         "error": signed(compared.error),
         // u_num, u_input and u_D, each with where it comes from
-        "parts": [
-            (part(compared.numerical), words(ComparisonPart::Numerical)),
-            (part(compared.input), words(ComparisonPart::Input)),
-            (part(compared.reference), words(ComparisonPart::Reference)),
-        ],
+        "parts": ComparisonPart::ALL.map(|own| (part(metric.uncertainty.of_part(own)), words(own))),
         "dominant": dominant(metric),
         "uncertainty": part(compared.uncertainty()),
         // u_val over the reference
