@@ -197,7 +197,10 @@ pub fn write(figure: &Figure, folder: &Path) -> Result<PathBuf, FigureError> {
 }
 
 /// Writes a file of a figure into a folder, which is made if it is missing; its path.
-fn put(folder: &Path, name: &str, ending: &str, bytes: &[u8]) -> Result<PathBuf, FigureError> {
+///
+/// # Errors
+/// If the name is no file name, or the file cannot be written.
+pub fn put(folder: &Path, name: &str, ending: &str, bytes: &[u8]) -> Result<PathBuf, FigureError> {
     if !is_file_name(name) {
         return Err(FigureError::Name { name: name.to_owned() });
     }

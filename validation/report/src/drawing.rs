@@ -6,14 +6,13 @@ use std::path::{Path, PathBuf};
 
 /// Writes `NAME.svg`, `NAME.png`, `NAME.pdf` and the data as `NAME.csv` into a folder; the path of the PNG.
 pub(super) fn write_figure(figure: &Figure, folder: &Path, drawings: &Drawings) -> Result<PathBuf, FigureError> {
-    check_name(&figure.name)?;
     let format = drawings.format();
     let key = drawings.key(&(figure, format));
     let vectors = drawings.bytes(&key, "svg", || render::svg(figure, format).map(String::into_bytes))?;
     let svg = String::from_utf8_lossy(&vectors);
     let pixels = drawings.bytes(&key, "png", || render::png(&svg, format))?;
     let page = drawings.bytes(&key, "pdf", || render::pdf(&svg, format))?;
-    let put = |ending: &str, bytes: &[u8]| put(folder, &figure.name, ending, bytes);
+    let put = |ending: &str, bytes: &[u8]| figure::put(folder, &figure.name, ending, bytes);
     put("svg", &vectors)?;
     put("pdf", &page)?;
     put("csv", figure::csv(figure).as_bytes())?;
@@ -27,10 +26,9 @@ pub(super) fn write_picture(
     drawings: &Drawings,
     format: FigureFormat,
 ) -> Result<PathBuf, FigureError> {
-    check_name(&figure.name)?;
     let draw = || render::png(&render::svg(figure, format)?, format);
     let pixels = drawings.bytes(&drawings.key(&(figure, format)), "png", draw)?;
-    put(folder, &figure.name, "png", &pixels)
+    figure::put(folder, &figure.name, "png", &pixels)
 }
 
 /// Writes `NAME.gif` and, for who wants nothing to move, its middle picture `NAME.png` into a folder; the path of the GIF.
@@ -39,22 +37,9 @@ pub(super) fn write_animation(
     folder: &Path,
     drawings: &Drawings,
 ) -> Result<PathBuf, FigureError> {
-    check_name(&animation.name)?;
     let moving = drawings.bytes(&drawings.key(animation), "gif", || encode_gif(animation))?;
     if let Some(middle) = animation.frames.get(animation.frames.len() / 2) {
         write_picture(&animation.figure(middle), folder, drawings, FigureFormat::HALF)?;
     }
-    put(folder, &animation.name, "gif", &moving)
-}
-
-fn check_name(name: &str) -> Result<(), FigureError> {
-    if figure::is_file_name(name) { Ok(()) } else { Err(FigureError::Name { name: name.to_owned() }) }
-}
-
-fn put(folder: &Path, name: &str, ending: &str, bytes: &[u8]) -> Result<PathBuf, FigureError> {
-    let path = folder.join(format!("{name}.{ending}"));
-    match std::fs::create_dir_all(folder).and_then(|()| std::fs::write(&path, bytes)) {
-        Ok(()) => Ok(path),
-        Err(source) => Err(FigureError::Write { path, source }),
-    }
+    figure::put(folder, &animation.name, "gif", &moving)
 }

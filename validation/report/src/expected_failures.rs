@@ -88,17 +88,6 @@ impl ListStatus {
     pub fn is_error(&self) -> bool {
         matches!(self, Self::PassesAgain(_) | Self::Worse(_) | Self::WithoutGate(_))
     }
-
-    /// The list's entry, if there is one.
-    #[must_use]
-    pub fn entry(&self) -> Option<&ExpectedFailure> {
-        match self {
-            Self::Unlisted => None,
-            Self::AsListed(entry) | Self::PassesAgain(entry) | Self::Worse(entry) | Self::WithoutGate(entry) => {
-                Some(entry)
-            }
-        }
-    }
 }
 
 impl ExpectedFailures {

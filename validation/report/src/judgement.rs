@@ -245,8 +245,6 @@ pub struct Judgement<'r> {
     pub report: &'r Report,
     /// Cases, the worst first, else in the report's order.
     pub cases: Vec<JudgedCase<'r>>,
-    /// Expected failures whose metric this report does not have: of other tiers or other cases.
-    pub listed_elsewhere: usize,
     /// Entries of the list of expected failures that contradict the results, each in a sentence.
     pub contradictions: Vec<(&'r ExpectedFailure, String)>,
     /// Status of the elements of each paper.
@@ -328,14 +326,13 @@ pub fn judge(report: &Report) -> Judgement<'_> {
     // Stable: cases of one rank keep the registry's order.
     cases.sort_by_key(JudgedCase::rank);
     let papers = report.papers.iter().map(|paper| PaperSummary::of(paper, &report.cases)).collect();
-    let mut judgement = Judgement { report, cases, listed_elsewhere: 0, contradictions: Vec::new(), papers };
+    let mut judgement = Judgement { report, cases, contradictions: Vec::new(), papers };
     for failure in &report.expected_failures.failures {
         let found =
             judgement.metrics().find(|(case, judged)| MetricKey::of(&case.case.name, judged.metric) == failure.key());
         let contradiction = match found {
             Some((_, judged)) => judged.listed.is_error().then(|| judged.note()),
             None => {
-                judgement.listed_elsewhere += 1;
                 let is_unknown = report.listed_in_vain.contains(&failure.key());
                 is_unknown.then(|| "no study measures this; correct or delete the entry".to_owned())
             }

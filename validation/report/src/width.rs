@@ -1,6 +1,6 @@
 //! The width of a gate as a stacked bar: what is known of the uncertainty of value and reference, over the gate's half width.
 
-use crate::metric::{COVERAGE, Gate, Limit, Metric, Origin};
+use crate::metric::{COVERAGE, Gate, Limit, Metric};
 use crate::number::{two_digits, with_unit};
 use serde_json::{Value, json};
 
@@ -28,7 +28,7 @@ pub(super) fn width(metric: &Metric) -> Option<Value> {
     let mut words = vec![format!("± {} (twice the standard uncertainty)", unit(expanded))];
     for part in metric.uncertainty.parts() {
         let wide = length * (part.standard / standard).powi(2);
-        parts.push(json!({ "class": class(part.origin), "x": format!("{x:.1}"), "width": format!("{wide:.1}") }));
+        parts.push(json!({ "class": part.origin, "x": format!("{x:.1}"), "width": format!("{wide:.1}") }));
         x += wide;
         words.push(format!("{} {}: {}", part.origin.name(), unit(part.standard), part.source));
     }
@@ -49,20 +49,10 @@ fn half_width(gate: &Gate) -> Option<f64> {
     (half.is_finite() && half > 0.0).then_some(half)
 }
 
-fn class(origin: Origin) -> &'static str {
-    match origin {
-        Origin::Experiment => "experiment",
-        Origin::Digitisation => "digitisation",
-        Origin::Numerical => "numerical",
-        Origin::Repeat => "repeat",
-        Origin::Input => "input",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metric::Variant;
+    use crate::metric::{Origin, Variant};
 
     #[test]
     fn parts_fill_the_share_of_the_gate_that_their_sum_takes() {
