@@ -124,7 +124,7 @@ impl StateOutput for RunStates {
         written.problem.is_none() && (time < written.last || time >= begun + self.plan.every * states as f64)
     }
 
-    fn take(&self, flow: Frame, walls: Option<Frame>) {
+    fn take(&self, (flow, walls): (Frame, Option<Frame>)) {
         let mut written = self.lock();
         let time = flow.time;
         let begins = written.begun.is_none() || time < written.last;
@@ -177,10 +177,10 @@ mod tests {
             for step in 0..=25 {
                 let time = f64::from(step) * 0.01 - part * 1e-3;
                 if run.is_due(time) {
-                    run.take(frame(time), Some(frame(time)));
+                    run.take((frame(time), Some(frame(time))));
                 }
             }
-            run.take(frame(0.25), None);
+            run.take((frame(0.25), None));
         }
         states.finish().expect("written");
         let text = std::fs::read_to_string(folder.path().join("run.pvd")).expect("written");
@@ -197,7 +197,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join("run"), "a file where a folder should be").expect("writable");
         let states = states(folder.path(), &[]);
-        states.run(0).expect("a run").take(frame(0.0), None);
+        states.run(0).expect("a run").take((frame(0.0), None));
         assert!(!states.run(0).expect("a run").is_due(5.0));
         assert!(states.finish().is_err());
     }

@@ -29,22 +29,11 @@ impl Lattice {
         self.columns as f64 * self.spacing
     }
 
-    /// Level of the upper edge `[m]`.
-    #[must_use]
-    pub fn top(&self) -> f64 {
-        self.bottom + self.height()
-    }
-
     /// As many particles as there are cells.
     #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "a lattice has particles")]
     pub fn len(&self) -> usize {
         self.rows * self.columns
-    }
-
-    /// Whether there is no particle.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// The rows below it, as walls are made of `[m]`.
@@ -81,9 +70,9 @@ mod tests {
         assert_eq!(sites.len(), 6);
         assert_eq!(sites[0], Vector::<2>::new(0.25, 1.25));
         assert_eq!(sites[5], Vector::<2>::new(1.25, 1.75));
-        assert_eq!((LATTICE.top(), LATTICE.length()), (2.0, 1.5));
+        assert_eq!((LATTICE.height(), LATTICE.length()), (1.0, 1.5));
         let wall = LATTICE.below(4);
-        assert_eq!((wall.top(), wall.bottom), (1.0, -1.0));
+        assert_eq!((wall.height(), wall.bottom), (2.0, -1.0));
     }
 
     #[test]

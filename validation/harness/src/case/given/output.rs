@@ -37,7 +37,7 @@ pub trait StateOutput: Sync {
     /// Whether one is wanted at a time `[s]`.
     fn is_due(&self, time: f64) -> bool;
     /// Takes one: what flows, and the walls if they have particles.
-    fn take(&self, flow: Frame, walls: Option<Frame>);
+    fn take(&self, pictures: (Frame, Option<Frame>));
 }
 
 impl OutputPlan {

@@ -43,12 +43,8 @@ impl Restartable for IncompressibleSimulation<2> {
         Frame::of_phases(state)
     }
 
-    fn picture(&self) -> Frame {
-        picture::of_phases(self)
-    }
-
-    fn walls(&self) -> Option<Frame> {
-        picture::of_floor(self)
+    fn pictures(&self) -> (Frame, Option<Frame>) {
+        (picture::of_phases(self), picture::of_floor(self))
     }
 
     fn particles(&self) -> usize {

@@ -53,10 +53,8 @@ pub trait Restartable: Sized {
     fn bits(state: &Self::State) -> Vec<u8>;
     /// A picture of a state, in the plane or in space.
     fn frame(state: &Self::State) -> Frame;
-    /// The present state as other programs want to see it.
-    fn picture(&self) -> Frame;
-    /// The particles of its walls; none where there are none.
-    fn walls(&self) -> Option<Frame>;
+    /// The present state as other programs want to see it, and the particles of its walls; none where there are none.
+    fn pictures(&self) -> (Frame, Option<Frame>);
     /// Particles that move.
     fn particles(&self) -> usize;
     /// Steps taken.
@@ -229,7 +227,7 @@ where
         CheckpointingObserver { stage, ends: progress.ends, started, kept, observe, simulation: PhantomData };
     let stop = simulation.follow(&mut course, &mut watching)?;
     if let Some(output) = progress.output() {
-        output.take(simulation.picture(), simulation.walls());
+        output.take(simulation.pictures());
     }
     Ok(RestartableRun { simulation, stop, kept: watching.kept, started })
 }
@@ -259,7 +257,7 @@ where
     fn pause(&mut self, simulation: &S, course: &RunProgress) -> ControlFlow<()> {
         let SimulationStage { progress, end, window, .. } = self.stage;
         if let Some(output) = progress.output().filter(|output| output.is_due(simulation.time())) {
-            output.take(simulation.picture(), simulation.walls());
+            output.take(simulation.pictures());
         }
         let interrupted = is_interrupted();
         let wanted = progress.checkpoints.filter(|checkpoints| interrupted || checkpoints.is_due());

@@ -47,12 +47,8 @@ where
         Frame::of_flow(state)
     }
 
-    fn picture(&self) -> Frame {
-        picture::of_flow(self)
-    }
-
-    fn walls(&self) -> Option<Frame> {
-        picture::of_walls(self)
+    fn pictures(&self) -> (Frame, Option<Frame>) {
+        (picture::of_flow(self), picture::of_walls(self))
     }
 
     fn particles(&self) -> usize {
