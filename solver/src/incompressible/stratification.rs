@@ -69,7 +69,7 @@ pub struct Stratification {
     strata: Strata,
     row: ColumnRow,
     overburden: Vec<f64>,
-    mixing_length: Vec<f64>,
+    pub(super) mixing_length: Vec<f64>,
 }
 
 /// Values of the stratification at a height.
@@ -109,11 +109,6 @@ impl Stratification {
     #[must_use]
     pub fn strata(&self) -> &Strata {
         &self.strata
-    }
-
-    /// l of every interval `[m]`, column by column.
-    pub(super) fn mixing_lengths(&self) -> &[f64] {
-        &self.mixing_length
     }
 
     /// Changes φ and renews the integrals.

@@ -304,11 +304,6 @@ impl<const D: usize> Particles<D> {
         complete
     }
 
-    /// Whether every wall particle belongs to one of so many walls.
-    pub(crate) fn walls_are_below(&self, walls: usize) -> bool {
-        self.wall.iter().all(|&wall| (wall as usize) < walls)
-    }
-
     /// Flow indices in the order of their identity.
     #[must_use]
     pub fn by_identity(&self) -> Vec<usize> {

@@ -108,7 +108,7 @@ impl<const D: usize> Simulation<D> {
         ForeignState::check("wall particles where its walls have moved", placed, count)?;
         let whole = particles.are_complete(images.len(), begun, &state.model.rheology)
             && images.belong_to(real)
-            && particles.walls_are_below(walls.len() + facet_walls)
+            && particles.wall.iter().all(|&wall| (wall as usize) < walls.len() + facet_walls)
             && state.enclosure.books.outflow.sides.len() == 2 * D
             && list.belongs_to(flow, real, real + images.len() + 1);
         ForeignState::check("whole sets of arrays", usize::from(whole), 1)?;

@@ -91,12 +91,6 @@ impl ColumnGrid {
     pub(crate) fn at(&self, values: &[f64], along: f64, height: f64) -> f64 {
         self.weights(along, height).iter().fold(0.0, |sum, (node, weight)| sum + weight * values[*node])
     }
-
-    /// A field of the faces, of which each lies half a cell above its node.
-    #[inline]
-    pub(crate) fn at_faces(&self, values: &[f64], along: f64, height: f64) -> f64 {
-        self.at(values, along, height - 0.5 * self.cell)
-    }
 }
 
 /// Integral of the hat 1 − |x| from −∞ to x `[-]`.

@@ -273,7 +273,8 @@ impl<const D: usize> Columns<D> {
             *held_impulse -= grains.mass[particle] * of_held * taken;
             let up = match suspension {
                 Some(suspension) => suspension.lift(grid, along, height, numerics.dilation_time),
-                None => grid.at_faces(lift, along, height),
+                // each face lies half a cell above its node
+                None => grid.at(lift, along, height - 0.5 * grid.cell),
             };
             grains.velocity[particle][0] = own + share * (new - own);
             grains.velocity[particle][normal] = up;

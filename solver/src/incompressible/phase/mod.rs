@@ -178,11 +178,6 @@ impl<const D: usize> Phase<D> {
         Places { free: &self.position, fixed: &self.wall, travel: &self.travel }
     }
 
-    /// Largest speed of a particle, squared `[m²/s²]`.
-    pub(crate) fn largest_speed_squared(&self) -> f64 {
-        self.velocity.iter().fold(0.0_f64, |most, v| most.max(v.norm_squared()))
-    }
-
     /// Moves a particle.
     #[inline(always)]
     pub fn displace(&mut self, particle: usize, by: Vector<D>) {

@@ -33,6 +33,7 @@ impl<const D: usize> Phases<D> {
 
     /// Largest speed of any particle `[m/s]`.
     pub(crate) fn largest_speed(&self) -> f64 {
-        self.all().map(Phase::largest_speed_squared).fold(0.0, f64::max).sqrt()
+        let velocities = self.all().flat_map(|phase| &phase.velocity);
+        velocities.fold(0.0_f64, |most, velocity| most.max(velocity.norm_squared())).sqrt()
     }
 }

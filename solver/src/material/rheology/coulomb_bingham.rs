@@ -36,20 +36,12 @@ pub struct CoulombBingham {
     pub largest_viscosity: f64,
 }
 
-impl CoulombBingham {
-    /// Yield stress τ_y + μ_c p `[Pa]` at a pressure `[Pa]`.
-    #[inline]
-    #[must_use]
-    pub fn yield_stress_at(&self, pressure: f64) -> f64 {
-        self.yield_stress + self.friction * pressure.max(0.0)
-    }
-}
-
 impl ViscousLaw for CoulombBingham {
     #[inline]
     fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64 {
         let inverse_rate = inverse_shear_rate_by_one_division(shear_rate, self.regularisation_rate);
-        (self.yield_stress_at(pressure) * inverse_rate).min(self.largest_viscosity) + self.plastic_viscosity
+        let yield_stress = self.yield_stress + self.friction * pressure.max(0.0);
+        (yield_stress * inverse_rate).min(self.largest_viscosity) + self.plastic_viscosity
     }
 
     #[inline]

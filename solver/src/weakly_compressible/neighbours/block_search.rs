@@ -190,11 +190,7 @@ impl<const D: usize> Search<'_, D> {
                 start += LANES;
             }
         }
-        if grid.holds_strays() && found <= LARGEST_ROW {
-            self.without_strays(&centre, &mut row[..found])
-        } else {
-            found
-        }
+        if grid.is_cut && found <= LARGEST_ROW { self.without_strays(&centre, &mut row[..found]) } else { found }
     }
 
     /// Moves those within the radius to the front and returns their number: coordinates that wrap make neighbours of particles

@@ -13,7 +13,7 @@ pub(crate) struct CellGrid<const D: usize> {
     inverse_size: f64,
     cells: [usize; D],
     /// Whether cells at a border hold particles beyond it.
-    is_cut: bool,
+    pub(crate) is_cut: bool,
     order: CellOrder,
     /// Particle index of each entry, and of [`LANES`] more that mean nothing.
     pub(crate) index: Vec<u32>,
@@ -76,11 +76,6 @@ impl<const D: usize> CellGrid<D> {
             self.cells[longest] = self.cells[longest].div_ceil(2);
             total *= self.cells[longest];
         }
-    }
-
-    /// Whether some of what the cells around a place hold may be far from it.
-    pub(crate) fn holds_strays(&self) -> bool {
-        self.is_cut
     }
 
     #[inline(always)]

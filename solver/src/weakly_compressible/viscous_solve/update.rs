@@ -8,7 +8,7 @@ use crate::lanes::algebra::{
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::weakly_compressible::energy::sum_of_lanes;
-use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
+use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::passes::records::{self, Records};
 
 impl<const D: usize> ViscousSolve<'_, D> {
@@ -113,18 +113,6 @@ pub(super) fn store_record<V: Lanes, const D: usize>(tensor: &[[V; D]; D], out: 
     }
 }
 
-/// Stresses of a group's own particles.
-#[inline(always)]
-fn stress_of<V: Lanes, const D: usize>(stresses: &Records, group: &NeighbourGroup<'_>) -> [[V; D]; D] {
-    records::tensor(&stresses.load::<V>(const { (D * D).div_ceil(4) }, &group.own), 0)
-}
-
-/// s_a L_a (Σ w r + Σ_w w β r).
-#[inline(always)]
-fn own_part<V: Lanes, const D: usize>(stress: &[[V; D]; D], closure: &LaneVector<D>) -> [V; D] {
-    product(stress, &load_columns(closure))
-}
-
 struct DirectionPass<'a, const D: usize> {
     coefficients: &'a [Coefficients<D>],
     unknowns: &'a mut [Unknowns<D>],
@@ -201,7 +189,9 @@ impl<const D: usize> LanePass for DivergencePass<'_, D> {
         let mut curvature = V::splat(0.0);
         for (offset, (coefficients, unknowns)) in coefficients.iter().zip(unknowns).enumerate() {
             let group = constants.model.list.group(block * GROUPS + offset);
-            let mut force = own_part(&stress_of(stresses, &group), &coefficients.closure);
+            let own = records::tensor::<V, D>(&stresses.load::<V>(const { (D * D).div_ceil(4) }, &group.own), 0);
+            // s_a L_a (Σ w r + Σ_w w β r)
+            let mut force = product(&own, &load_columns(&coefficients.closure));
             for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
                 let stress = records::tensor::<V, D>(&stresses.load::<V>(const { (D * D).div_ceil(4) }, &b), 0);
                 accumulate(&mut force, V::splat(1.0), &product(&stress, &load_columns(pair)));

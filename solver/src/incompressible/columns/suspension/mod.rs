@@ -144,7 +144,7 @@ impl Suspension {
                 diffusivity[node] += own * rate;
             });
         }
-        for ((diffusivity, weight), length) in diffusivity.iter_mut().zip(weight).zip(layer.mixing_lengths()) {
+        for ((diffusivity, weight), length) in diffusivity.iter_mut().zip(weight).zip(&layer.mixing_length) {
             if *weight > 0.0 {
                 *diffusivity = eddy_viscosity(*length, *diffusivity / *weight) / self.turbulent_schmidt;
             }
