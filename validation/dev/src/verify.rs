@@ -48,7 +48,7 @@ pub(crate) fn verify(command: &VerifyArguments, session: &mut Session<'_>) -> Re
             .map(|(threads, hash)| format!("{hash} on {threads}"))
             .collect();
         if wrong.is_empty() {
-            session.say(&format!("same     {} {}\n", run.case, brief(&expected)));
+            session.say(&format!("same     {} {}\n", run.case, expected.get(..16).unwrap_or(&expected)));
         } else {
             let line = format!("differs  {}: {} threads, but {expected} is committed\n", run.case, wrong.join(", "));
             session.say(&line);
@@ -71,10 +71,6 @@ pub(crate) fn verify(command: &VerifyArguments, session: &mut Session<'_>) -> Re
     let remedy = "a change of numbers, a compiler or a machine that rounds otherwise";
     session.say(&format!("other bits: {} ({remedy})\n", differing.join(", ")));
     Ok(Exit::GateFailed)
-}
-
-fn brief(hash: &str) -> &str {
-    hash.get(..16).unwrap_or(hash)
 }
 
 fn read(file: Option<&Path>) -> Result<ShortRuns, DevError> {

@@ -46,10 +46,6 @@ impl ColourScale {
         fields.map(|(field, map)| field.as_ref().map(|field| Self::of(field, map)))
     }
 
-    fn fraction(&self, value: f64) -> f64 {
-        (value - self.range.lower) / (self.range.upper - self.range.lower)
-    }
-
     /// Width of a bar beside a plot, with its gap, numbers and label `[px]`.
     pub(super) fn width_beside(&self, sizes: Sizes) -> f64 {
         BAR_GAP + BAR + TICK_GAP + widest_label(&self.ticks, sizes.tick) + 1.9 * sizes.label
@@ -136,7 +132,9 @@ pub(super) fn draw_field(
     for (index, &point) in field.points.iter().enumerate() {
         let Some(centre) = plot.place(point).filter(|&centre| plot.window.contains(centre)) else { continue };
         let value = field.values.get(index).copied().unwrap_or(f64::NAN);
-        let colour = if value.is_nan() { GREY } else { colours.map.at(colours.fraction(value)) };
+        let range = &colours.range;
+        let fraction = (value - range.lower) / (range.upper - range.lower);
+        let colour = if value.is_nan() { GREY } else { colours.map.at(fraction) };
         canvas.disc(centre, radius, Ink::solid(colour, 0.0))?;
     }
     Ok(())

@@ -80,13 +80,9 @@ impl Legend {
         1.35 * self.em
     }
 
-    fn entry_width(&self) -> f64 {
-        self.sample() + 0.5 * self.em + self.widest
-    }
-
     /// Width of the box with one entry a row.
     pub(super) fn box_width(&self) -> f64 {
-        self.entry_width() + 1.2 * self.em
+        self.sample() + 0.5 * self.em + self.widest + 1.2 * self.em
     }
 
     fn box_height(&self) -> f64 {

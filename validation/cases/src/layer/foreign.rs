@@ -82,7 +82,7 @@ pub(crate) fn observe(
     if let Some(end) = given.pictures.last().map(|picture| picture.time) {
         let start = given.pictures.first().map_or(end, |picture| picture.time);
         let mut probe = LayerProbe::new(layer);
-        probe.average_from(end - LAST * (end - start));
+        probe.window_start = end - LAST * (end - start);
         for picture in &given.pictures {
             let reach = REACH * layer.layer.layer_height;
             picture.within(f64::MAX, [f64::NEG_INFINITY, -reach, f64::NEG_INFINITY], ORIGIN)?;

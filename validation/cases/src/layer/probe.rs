@@ -101,7 +101,7 @@ pub struct LayerProbe {
     length: f64,
     reach: f64,
     weight: f64,
-    window_start: f64,
+    pub(super) window_start: f64,
     noise: bool,
     series: TimeSeries,
     sums: Vec<[f64; 6]>,
@@ -125,11 +125,6 @@ impl LayerProbe {
             lost: 0,
             energy: EnergyBook::default(),
         }
-    }
-
-    /// Averages the profile from a time on `[s]`.
-    pub(super) fn average_from(&mut self, time: f64) {
-        self.window_start = time;
     }
 
     /// Latest depth mean of the velocity `[m/s]`.

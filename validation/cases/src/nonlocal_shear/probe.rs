@@ -37,12 +37,6 @@ impl ShearObservation {
         mean(&self.pressure)
     }
 
-    /// Mean shear stress of all rows `[Pa]`.
-    #[must_use]
-    pub fn mean_shear_stress(&self) -> f64 {
-        mean(&self.shear_stress)
-    }
-
     /// (height `[m]`, velocity `[m/s]`) of the rows from below.
     #[must_use]
     pub fn velocities(&self) -> Vec<(f64, f64)> {

@@ -60,13 +60,8 @@ impl Control {
     /// Whether a metric is meant to feel the error.
     #[must_use]
     pub fn is_named_by(&self, metric: &str) -> bool {
-        self.rejected_by.iter().any(|name| name == metric) || self.accepts_because(metric).is_some()
-    }
-
-    /// Reason for which a metric that should detect the error accepts it.
-    #[must_use]
-    pub fn accepts_because(&self, metric: &str) -> Option<&str> {
-        self.accepted_by.iter().find(|entry| entry.metric == metric).map(|entry| entry.because.as_str())
+        let is_accepted = self.accepted_by.iter().any(|entry| entry.metric == metric);
+        is_accepted || self.rejected_by.iter().any(|name| name == metric)
     }
 
     /// Whether a report runs it beside the case; the others stand in the table.

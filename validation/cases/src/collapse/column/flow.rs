@@ -33,8 +33,6 @@ const SHOWN: [(f64, &[f64]); 3] =
     [(0.9, &[0.07, 0.11, 0.3]), (2.75, &[0.04, 0.12, 0.34, 0.53]), (4.8, &[0.04, 0.2, 0.4])];
 /// Time between the frames of the animation over √(h_0/g) `[-]`.
 const FRAME_INTERVAL: f64 = 0.1;
-/// Aspect ratio above which columns of the sand may be too coarse for a law `[-]`.
-const TALLEST_FINE: f64 = 5.0;
 /// Particles beyond which a column would take weeks or all memory.
 const MOST_PARTICLES: f64 = 5e6;
 
@@ -224,11 +222,6 @@ impl<const D: usize> ColumnFlow<D> {
     #[must_use]
     pub fn time_scale(&self) -> f64 {
         (self.initial_height() * self.half_width / self.gravity).sqrt()
-    }
-
-    /// Whether only exponents are fitted to it: a tall column of the paper's sand that is too coarse for a law.
-    pub(crate) fn is_for_exponents(&self) -> bool {
-        self.made_of() == Material::SAND && D == 2 && self.aspect_ratio > TALLEST_FINE && self.resolution < 20
     }
 
     /// Whether there are enough rows over the height for a gate.

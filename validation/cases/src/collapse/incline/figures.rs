@@ -155,7 +155,7 @@ fn run_outs(records: &[Record]) -> Figure {
     }
     let points: Vec<(f64, f64)> = records
         .iter()
-        .filter(|(run, record)| !run.is_regularised() && record.data.came_to_rest())
+        .filter(|(run, record)| !run.is_regularised() && record.data.collapse.rest_time().is_finite())
         .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir_length))
         .collect();
     panel.points("at rest", 0, points);

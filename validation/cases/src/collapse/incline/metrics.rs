@@ -85,15 +85,11 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
     if let Some(beside) = Beside::of_slope(run, data) {
         metrics.extend(beside.metrics(&variant, WELL_DOWN_THE_SLOPE));
     }
-    if is_of_the_figures(run) {
+    // the paper's figures 4 and 5, with the law itself
+    if run.slope_angle == FIELD_SLOPE && !run.is_regularised() {
         metrics.extend(FIELD_TIMES.iter().filter_map(|&time| of_fields(time, run, record)).flatten());
     }
     metrics
-}
-
-/// Whether the run is that of the paper's figures 4 and 5, with the law itself.
-fn is_of_the_figures(run: &SlopeFlow) -> bool {
-    run.slope_angle == FIELD_SLOPE && !run.is_regularised()
 }
 
 /// Velocity over depth at a quarter, half and three quarters of the way from the gate to the front; none before the front has

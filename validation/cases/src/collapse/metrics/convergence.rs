@@ -43,10 +43,6 @@ impl<'a, const D: usize> ConvergenceStudy<'a, D> {
         self.records.iter().any(|(run, _)| run.made_of() == self.material && run.has_published_law())
     }
 
-    fn label(&self) -> String {
-        format!("{}, a = {}", self.material, self.aspect_ratio)
-    }
-
     /// A variant with the column's keys at its end.
     fn name(&self, variant: Variant) -> Variant {
         variant.and("material", self.material.to_string()).and("aspect_ratio", self.aspect_ratio)
@@ -233,7 +229,7 @@ pub(crate) fn figure<const D: usize>(records: &[CollapseRecord<D>]) -> Option<Fi
             if let (Some(last), Some(found)) = (errors.last_mut(), finest(&means)) {
                 *last = 100.0 * found.index;
             }
-            panel.line_points(&study.label(), slot, points).error = errors;
+            panel.line_points(&format!("{}, a = {}", study.material, study.aspect_ratio), slot, points).error = errors;
         }
         panel
     });

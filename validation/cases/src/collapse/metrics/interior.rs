@@ -18,11 +18,6 @@ const AT_THE_SURFACE: &str = "statement of the collapse paper: the velocity is l
 /// Aspect ratio up to which a column is shallow, and part of it has to stay where it was `[-]`.
 const SHALLOW: f64 = 1.0;
 
-/// Whether a column is one of the grains that the statements of the collapse paper are judged by.
-fn is_of_paper<const D: usize>(run: &ColumnFlow<D>) -> bool {
-    run.is_published() && run.grains != ExperimentGrains::Bars
-}
-
 /// Share of the variance of the velocity over the flowing layer at the column's edge that a line explains, of a run `[-]`.
 fn edge_r_squared<const D: usize>((run, record): &CollapseRecord<D>) -> Option<f64> {
     Some(stations(run, record).get(1)?.shear?.r_squared)
@@ -58,7 +53,8 @@ pub(super) fn of_run<const D: usize>((run, record): &CollapseRecord<D>, records:
     if let Some(shear) = stations.get(1).and_then(|edge| edge.shear) {
         let values: Vec<f64> = [shear.r_squared].into_iter().chain(r_squared_of_seeds(run, records)).collect();
         let over_seeds = Mean::of(run.resolution, &values).filter(|mean| mean.runs > 1);
-        let judged = is_of_paper(run).then_some(Limit::AtLeast(LINEAR));
+        let is_of_paper = run.is_published() && run.grains != ExperimentGrains::Bars;
+        let judged = is_of_paper.then_some(Limit::AtLeast(LINEAR));
         let own = judged.filter(|_| over_seeds.is_none());
         metrics.push(linear(FLOWING_LAYER_R_SQUARED, shear.r_squared).gated_by(own, LINEAR_REASON));
         metrics.extend(over_seeds.map(|mean| {

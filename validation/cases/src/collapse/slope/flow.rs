@@ -278,12 +278,6 @@ impl SlopeCollapse {
         };
         self.thickness.iter().map(value).collect()
     }
-
-    /// Whether the grains came to rest before the end of the channel.
-    #[must_use]
-    pub fn came_to_rest(&self) -> bool {
-        self.collapse.rest_time().is_finite()
-    }
 }
 
 #[cfg(test)]

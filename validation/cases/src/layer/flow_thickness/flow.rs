@@ -168,12 +168,6 @@ impl FlowThicknessFlow {
         self.flowing_angle > 0.0
     }
 
-    /// Whether its grains cooperate.
-    #[must_use]
-    pub fn is_nonlocal(&self) -> bool {
-        matches!(self.material, Rheology::NonlocalMuI(_))
-    }
-
     /// Condition on the fluidity at the surface, as a variant has it; none of the local law.
     pub(super) fn surface_name(&self) -> Option<&'static str> {
         let Rheology::NonlocalMuI(law) = self.material else { return None };

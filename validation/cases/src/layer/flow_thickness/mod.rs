@@ -14,6 +14,7 @@ use crate::layer::LayerObservation;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
 use crate::store::CodeOrigin;
+use bagnold_solver::material::rheology::Rheology;
 
 /// The case.
 #[derive(Debug)]
@@ -66,11 +67,10 @@ fn trials((run, record): &Record) -> Option<Table> {
 
 /// The steady flows of the local law, or of the nonlocal one, among the records.
 fn flows(records: &[Record], nonlocal: bool) -> impl Iterator<Item = (&FlowThicknessFlow, &LayerObservation)> {
-    records.iter().filter(move |(flow, _)| flow.is_nonlocal() == nonlocal).filter_map(|(flow, record)| {
-        match &record.data {
-            FlowThicknessObservation::Steady(data) => Some((flow, data.as_ref())),
-            FlowThicknessObservation::StartStop(_) => None,
-        }
+    let is_own = move |flow: &FlowThicknessFlow| matches!(flow.material, Rheology::NonlocalMuI(_)) == nonlocal;
+    records.iter().filter(move |(flow, _)| is_own(flow)).filter_map(|(flow, record)| match &record.data {
+        FlowThicknessObservation::Steady(data) => Some((flow, data.as_ref())),
+        FlowThicknessObservation::StartStop(_) => None,
     })
 }
 

@@ -85,7 +85,9 @@ impl SlopeSearch<'_> {
             search.seconds += ending.started.elapsed().as_secs_f64();
             search.steps += simulation.steps();
             search.simulated_time += simulation.time();
-            if !search.enter(trial) || search.is_narrow(self.tolerance) {
+            let goes_on = search.enter(trial);
+            let is_narrow = search.flowing - search.stopping <= self.tolerance * (1.0 + 1e-9);
+            if !goes_on || search.trials.len() > 1 && is_narrow {
                 let SlopeBisection { trials, steps, simulated_time, seconds, .. } = search;
                 let record = ending.record(&simulation, |_| StartStop { trials });
                 return Ok(Recorded { steps, simulated_time, wall_seconds: seconds, ..record });
@@ -204,11 +206,6 @@ impl SlopeBisection {
                 true
             }
         }
-    }
-
-    /// Whether the bracket is no wider than a tolerance `[°]`.
-    fn is_narrow(&self, tolerance: f64) -> bool {
-        self.trials.len() > 1 && self.flowing - self.stopping <= tolerance * (1.0 + 1e-9)
     }
 }
 
