@@ -58,11 +58,7 @@ impl IncompressibleSimulation<2> {
     pub fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> StopReason<2> {
         observed_run::run(self, course, observer)
     }
-}
 
-/// Methods that loop over particles: here and not with the reading functions below, so that they are compiled with the
-/// solver.
-impl IncompressibleSimulation<2> {
     /// Force of walls and fixed grains on the fluid and the sediment in the last step `[N]`, per metre of width in 2-D:
     /// friction and drag, without what the walls' pressure gives.
     #[must_use]

@@ -66,7 +66,7 @@ pub(crate) fn single(coefficient: f64) -> f64 {
 #[derive(Debug)]
 pub(crate) struct LaneRows<C> {
     rows: usize,
-    stride: usize,
+    pub(crate) stride: usize,
     columns: CheckedIndices,
     coefficients: Vec<C>,
     /// Entries of every row, those of lanes without a row included; without padding, where rows were filled one by one.
@@ -194,11 +194,6 @@ impl<C: Coefficients> LaneRows<C> {
     /// Number of rows.
     pub(crate) fn len(&self) -> usize {
         self.rows
-    }
-
-    /// Most entries of a row.
-    pub(crate) fn stride(&self) -> usize {
-        self.stride
     }
 
     /// Columns and coefficients of a row.

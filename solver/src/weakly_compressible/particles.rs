@@ -144,11 +144,6 @@ impl<const D: usize> Particles<D> {
         index >= self.flow && self.walls.depth[index - self.flow] > 0.0
     }
 
-    /// Plane wall, or number of plane walls plus facet wall, of the wall particle at a place among them.
-    pub(crate) fn wall(&self, offset: usize) -> usize {
-        self.wall[offset] as usize
-    }
-
     /// Makes room for flow particles behind the others, and returns their places; there are no images now. All their values are zero.
     pub(crate) fn insert(&mut self, count: usize) -> Range<usize> {
         let (flow, end) = (self.flow, self.flow + count);

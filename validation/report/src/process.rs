@@ -207,9 +207,7 @@ impl ReportProcess {
         text += &format!("{}. Report: {}\n", judgement.in_words(), page.display());
         (exit, text)
     }
-}
 
-impl ReportProcess {
     /// Limits that differ from the accepted ones; none beside an earlier report or for a suite, which has no list.
     fn moved_limits(&self, report: &Report) -> Vec<String> {
         let is_compared = self.request.against.is_none() && self.request.changed.is_empty();

@@ -12,7 +12,7 @@ pub struct Grid<const D: usize> {
     cells: [usize; D],
     periodic: [bool; D],
     order: CellOrder,
-    index: Vec<u32>,
+    pub(super) index: Vec<u32>,
 }
 
 /// Most cells along an axis: a stray particle far away must not buy a huge grid.
@@ -50,11 +50,6 @@ impl<const D: usize> Grid<D> {
         let cell_of = |particle: usize| self.cell(&self.coordinates(&positions[particle]));
         order.sort(self.cells.iter().product(), cell_of, &mut index);
         (self.order, self.index) = (order, index);
-    }
-
-    /// The particles in the order of their cells.
-    pub(crate) fn index(&self) -> &[u32] {
-        &self.index
     }
 
     /// The stretches of that order that lie in the cells around a position, from a place to the next one behind, and how many

@@ -16,21 +16,21 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug)]
 pub struct LaneList<const D: usize> {
     /// Chunks from one group to the next.
-    stride: usize,
-    columns: CheckedIndices,
+    pub(crate) stride: usize,
+    pub(crate) columns: CheckedIndices,
     /// Candidates of every target; none in lanes that are left.
     count: Vec<u32>,
     /// Candidates of the longest row of every group.
     width: Vec<u32>,
-    targets: usize,
+    pub(crate) targets: usize,
     /// Searches and restorations, by which others see that the list has changed.
-    changes: u64,
+    pub(crate) changes: u64,
     /// Coordinates of the sources in the order of their cells, and their indices, with room for eight behind them.
     coordinates: [Vec<f64>; D],
     index: Vec<u32>,
     /// Candidates of one target for every task: those within reach, and those within the skin.
     found: Vec<u32>,
-    set: InstructionSet,
+    pub(crate) set: InstructionSet,
 }
 
 /// Whether the sources are the targets themselves.
@@ -133,39 +133,13 @@ impl<const D: usize> LaneList<D> {
 
     fn sort(&mut self, sources: &[Vector<D>], grid: &Grid<D>) {
         self.index.clear();
-        self.index.extend_from_slice(grid.index());
+        self.index.extend_from_slice(&grid.index);
         for (axis, coordinates) in self.coordinates.iter_mut().enumerate() {
             coordinates.clear();
             coordinates.extend(self.index.iter().map(|&source| sources[source as usize][axis]));
             coordinates.extend([0.0; LANES]);
         }
         self.index.extend([0; LANES]);
-    }
-
-    /// Number of targets.
-    #[inline(always)]
-    pub(crate) fn targets(&self) -> usize {
-        self.targets
-    }
-
-    /// Chunks from one group to the next, in arrays that run parallel to the list too.
-    pub(crate) fn stride(&self) -> usize {
-        self.stride
-    }
-
-    /// All chunks, those between the groups included.
-    pub(crate) fn columns(&self) -> &CheckedIndices {
-        &self.columns
-    }
-
-    /// Searches and restorations up to now.
-    pub(crate) fn changes(&self) -> u64 {
-        self.changes
-    }
-
-    /// The instruction set of passes over the list.
-    pub(crate) fn set(&self) -> InstructionSet {
-        self.set
     }
 
     /// The chunks of a group.

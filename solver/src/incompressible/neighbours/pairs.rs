@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug)]
 pub struct Pairs<const D: usize> {
     /// A multiple of eight.
-    stride: usize,
+    pub(crate) stride: usize,
     /// Candidates of every target, and how many there are.
     candidate: Vec<u32>,
     candidates: Vec<u32>,
@@ -153,11 +153,6 @@ impl<const D: usize> Pairs<D> {
     pub fn of(&self, target: usize) -> &[Pair<D>] {
         let start = target * self.stride;
         &self.entry[start..start + self.count[target] as usize]
-    }
-
-    /// Length of a row, in arrays that run parallel to the pairs too.
-    pub(crate) fn stride(&self) -> usize {
-        self.stride
     }
 }
 

@@ -89,7 +89,7 @@ pub(crate) fn fill_rows<const D: usize>(
         eliminated: numerics.surface == SurfaceTreatment::Eliminated,
         surface_gain: numerics.surface_gain,
     };
-    let stride = phase.free.stride();
+    let stride = phase.free.stride;
     let (chunks, rows) = (LEAST_GROUPS * stride, LEAST_GROUPS * LANES);
     let links = (pressure.links.par_chunks_mut(chunks), pressure.width.par_chunks_mut(LEAST_GROUPS));
     let (own, held) = (pressure.own.par_chunks_mut(rows), pressure.held.par_chunks_mut(rows));
@@ -103,7 +103,7 @@ pub(crate) fn fill_rows<const D: usize>(
             let pressure = PressureRows { links, width, own, diagonal, held };
             let friction = friction.map(|((couplings, width), coupled)| FrictionRows { couplings, width, coupled });
             let out = Out { first: task * LEAST_GROUPS, stride, nearness, pressure, friction };
-            phase.free.set().run(Task { pairs: &pairs, out });
+            phase.free.set.run(Task { pairs: &pairs, out });
         },
     );
     (phase.nearness, phase.records) = (nearness, records);

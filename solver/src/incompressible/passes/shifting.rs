@@ -24,7 +24,7 @@ pub(crate) fn find_shifts<const D: usize>(
     shifts.par_chunks_mut(LEAST_TASK).enumerate().for_each(|(task, shifts)| {
         let first = task * (LEAST_TASK / LANES);
         let (scale, largest) = (-numerics.shifting * time_step, numerics.largest_shift * phase.spacing);
-        phase.free.set().run(Shift { phase, periods, scale, largest, first, shifts });
+        phase.free.set.run(Shift { phase, periods, scale, largest, first, shifts });
     });
 }
 

@@ -43,7 +43,7 @@ pub(crate) fn find_surroundings<const D: usize>(
     // walls stand still, but a saved phase comes without their records
     records::pack(wall_records, quads(D), wall, |_, _| {});
     let groups = position.len().div_ceil(LANES);
-    weight.resize(groups * free.stride(), [0.0; LANES]);
+    weight.resize(groups * free.stride, [0.0; LANES]);
     active.resize(groups, 0);
     let around = Around {
         free,
@@ -59,7 +59,7 @@ pub(crate) fn find_surroundings<const D: usize>(
         mirror,
         gradients,
     };
-    let (chunks, rows) = (LEAST_GROUPS * free.stride(), LEAST_GROUPS * LANES);
+    let (chunks, rows) = (LEAST_GROUPS * free.stride, LEAST_GROUPS * LANES);
     let lists = (weight.par_chunks_mut(chunks), active.par_chunks_mut(LEAST_GROUPS));
     let (concentration, deficit) = (phase.concentration.par_chunks_mut(rows), phase.deficit.par_chunks_mut(rows));
     let scalars = (concentration, deficit, phase.at_surface.par_chunks_mut(rows), phase.moment.par_chunks_mut(rows));
@@ -70,7 +70,7 @@ pub(crate) fn find_surroundings<const D: usize>(
             let first = task * LEAST_GROUPS;
             let out = Sums {
                 first,
-                stride: free.stride(),
+                stride: free.stride,
                 weight,
                 active,
                 concentration,
@@ -81,7 +81,7 @@ pub(crate) fn find_surroundings<const D: usize>(
                 walls,
                 velocity_gradient,
             };
-            free.set().run(Task { around: &around, out });
+            free.set.run(Task { around: &around, out });
         },
     );
 }
@@ -169,7 +169,7 @@ impl<const D: usize> Task<'_, '_, D> {
         let around = self.around;
         let global = self.out.first + group;
         let zero = V::splat(0.0);
-        let own = records::of_group::<V>(around.records, quads(D), global, around.free.targets());
+        let own = records::of_group::<V>(around.records, quads(D), global, around.free.targets);
         let across = around.periods.across(&own[..D], around.kernel.support());
         let mut sums = LaneSums {
             value: around.kernel.value(zero),

@@ -155,7 +155,7 @@ impl<const D: usize> Phase<D> {
     /// images `[m]` and F `[1/m^(D+2)]`.
     #[inline(always)]
     pub fn free_pairs(&self, a: usize, periods: &Periods<D>) -> impl Iterator<Item = (usize, Vector<D>, f64)> {
-        let (first, lane) = (a / LANES * self.free.stride(), a % LANES);
+        let (first, lane) = (a / LANES * self.free.stride, a % LANES);
         let candidates = self.free.of(a).zip(&self.weight[first..]);
         let near = candidates.filter(move |(_, weight)| weight[lane] < 0.0);
         near.map(move |(b, weight)| {

@@ -41,16 +41,16 @@ pub(crate) const LATTICE_ROWS: usize = 4096;
 pub struct PressurePoisson<const D: usize> {
     links: LaneRows<LinkChunk<D>>,
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
-    own: Vec<Vector<D>>,
+    pub(crate) own: Vec<Vector<D>>,
     diagonal: Vec<f64>,
     /// Excess of the diagonal over the sum of its links `[1/m²]`.
-    held: Vec<f64>,
+    pub(crate) held: Vec<f64>,
     right_side: Vec<f64>,
     gradient: Vec<Vector<D>>,
     /// A pressure less its mean, where there is no level.
     deviation: Vec<f64>,
     /// Whether a surface fixes the level of the pressure.
-    gauge: Gauge,
+    pub(crate) gauge: Gauge,
     factors: IncompleteCholesky,
     lattices: Lattices<D>,
     pub(crate) solver: ConjugateGradient<f64>,
@@ -66,7 +66,7 @@ impl<const D: usize> PressurePoisson<D> {
         self.own.resize(count, Vector::zeros());
         self.gradient.resize(count, Vector::zeros());
         let list = &phase.free;
-        let (links, width) = self.links.with_pattern((count, list.stride()), list.columns(), list.changes());
+        let (links, width) = self.links.with_pattern((count, list.stride), &list.columns, list.changes);
         PressureRows { links, width, own: &mut self.own, diagonal: &mut self.diagonal, held: &mut self.held }
     }
 
@@ -115,21 +115,6 @@ impl<const D: usize> PressurePoisson<D> {
             links.run(Gradient { links, own, p, first: task * TASK_ROWS, gradient, compact: None });
         });
         gradient
-    }
-
-    /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
-    pub(crate) fn own(&self, a: usize) -> Vector<D> {
-        self.own[a]
-    }
-
-    /// Excess of the diagonal of A over the sum of its links, in the row of a particle `[1/m²]`.
-    pub(crate) fn held(&self, a: usize) -> f64 {
-        self.held[a]
-    }
-
-    /// Reference that fixes the level of the pressure.
-    pub(crate) fn gauge(&self) -> Gauge {
-        self.gauge
     }
 
     /// The links of a particle.
@@ -183,7 +168,7 @@ impl<const D: usize> PressurePoisson<D> {
         };
         let pressure = &mut phase.pressure;
         let outcome = if self.links.len() < LATTICE_ROWS {
-            factors.factorise(self.links.len(), self.links.stride(), &CompactRows(self));
+            factors.factorise(self.links.len(), self.links.stride, &CompactRows(self));
             solver.solve(pressure, &right_side, &mut factors, None, criterion, operator)
         } else {
             let inverse = self.diagonal.iter().map(|&diagonal| if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 });

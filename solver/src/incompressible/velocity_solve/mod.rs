@@ -60,7 +60,7 @@ impl<const D: usize> VelocitySystem<D> {
     pub(crate) fn fluid_rows(&mut self, fluid: &Phase<D>) -> FrictionRows<'_> {
         let (count, list) = (fluid.len(), &fluid.free);
         self.coupled.resize(count, 0.0);
-        let (couplings, width) = self.couplings.with_pattern((count, list.stride()), list.columns(), list.changes());
+        let (couplings, width) = self.couplings.with_pattern((count, list.stride), &list.columns, list.changes);
         FrictionRows { couplings, width, coupled: &mut self.coupled }
     }
 
@@ -88,7 +88,7 @@ impl<const D: usize> VelocitySystem<D> {
             self.inverse_diagonal.extend(diagonal.iter().map(|diagonal| 1.0 / diagonal));
             solver.solve(velocity, momentum, &mut self.inverse_diagonal, sums, criterion, product)
         } else {
-            let longest = self.couplings.stride() + self.beside.stride();
+            let longest = self.couplings.stride + self.beside.stride;
             self.factors.factorise(diagonal.len(), longest, &SolvedRows { couplings, diagonal });
             solver.solve(velocity, momentum, &mut self.factors, sums, criterion, product)
         };

@@ -68,8 +68,8 @@ impl<const D: usize> VelocityRows<'_, D> {
     pub(crate) fn assemble(&self, system: &mut VelocitySystem<D>) {
         let Phases { fluid, sediment } = self.phases;
         let rows = fluid.len() + sediment.as_ref().map_or(0, Phase::len);
-        let of_sediment = |s: &Phase<D>| s.free.stride() + self.exchange.of_sediment.stride();
-        let stride = self.exchange.of_fluid.stride().max(sediment.as_ref().map_or(0, of_sediment));
+        let of_sediment = |s: &Phase<D>| s.free.stride + self.exchange.of_sediment.stride;
+        let stride = self.exchange.of_fluid.stride.max(sediment.as_ref().map_or(0, of_sediment));
         system.resize(rows);
         let VelocitySystem {
             coupled: of_fluid,

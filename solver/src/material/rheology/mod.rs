@@ -550,9 +550,7 @@ impl Rheology {
             Self::OpenViscous(_) | Self::OpenPlastic(_) | Self::OpenField(_) => None,
         })
     }
-}
 
-impl Rheology {
     /// Shear stress `[Pa]` that material which has not yet flowed bears at a pressure `[Pa]`; none of a law that carries no stress along.
     #[must_use]
     pub fn strength_at_rest(&self, pressure: f64) -> Option<f64> {

@@ -53,7 +53,7 @@ impl<const D: usize> BoundaryState<D> {
         owners.clear();
         owners.resize(particles.position.len(), NO_OWNER);
         for index in flow..real {
-            let wall = particles.wall(index - flow);
+            let wall = particles.wall[index - flow] as usize;
             owners[index] = wall.checked_sub(*plane_walls).map_or(NO_OWNER, |wall| wall as u32);
         }
         for image in 0..images.len() {

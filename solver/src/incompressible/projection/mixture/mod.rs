@@ -112,8 +112,8 @@ impl<const D: usize> Mixture<D> {
                     compact += 0.5 * link.laplacian * (mobility[a] + mobility[b]);
                     wide += voidage[a] * voidage[a] * link.gradient.norm_squared() * fluid_mobility[b];
                 }
-                *held = operators.poisson.held(a);
-                let own = operators.poisson.own(a) * voidage[a] + cross[a];
+                *held = operators.poisson.held[a];
+                let own = operators.poisson.own[a] * voidage[a] + cross[a];
                 wide += own.norm_squared() * fluid_mobility[a];
                 for (j, gradient) in operators.links(a, volumes) {
                     wide += sediment_mobility.get(j).map_or(0.0, |mobility| gradient.norm_squared() * mobility);
@@ -188,7 +188,7 @@ impl<const D: usize> Mixture<D> {
             let divergence = this.divergence(operators, a, predicted.0, predicted.1);
             *right = -(divergence / time_step + operators.voidage[a] * missing);
         });
-        let gauge = operators.poisson.gauge();
+        let gauge = operators.poisson.gauge;
         gauge.take_mean_out(&mut right_side);
         // a uniform flow on a lattice has no divergence but rounding, which no solve gets rid of
         let speed = predicted.0.iter().chain(predicted.1).fold(0.0_f64, |most, u| most.max(u.norm_squared())).sqrt();
