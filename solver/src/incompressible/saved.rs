@@ -5,7 +5,7 @@
 //! pressure, from which the solves of the next step start. Everything else a step makes anew before it reads it.
 
 use super::columns::{Columns, Saved};
-use super::neighbours::{SavedLayers, SavedList, SavedPairs};
+use super::neighbours::{Layers, SavedList, SavedPairs};
 use super::phase::Phase;
 use super::scene::IncompressibleScene;
 use super::simulation::{IncompressibleSimulation, SolverCost};
@@ -21,7 +21,7 @@ pub struct SavedIncompressible<const D: usize> {
     sediment: Option<SavedPhase<D>>,
     exchange: Option<(SavedPairs, SavedPairs)>,
     grains: Option<Saved<D>>,
-    layers: SavedLayers,
+    layers: Layers<D>,
     mean_gradient: Vec<Tensor<D>>,
     change: Vec<Vector<D>>,
     push: Vec<Vector<D>>,
@@ -80,7 +80,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
             sediment: phases.sediment.as_ref().map(SavedPhase::of),
             exchange: phases.sediment.as_ref().map(|_| exchange.save()),
             grains: columns.as_ref().map(Columns::save),
-            layers: search.save(),
+            layers: search.layers.clone(),
             mean_gradient: viscosities.mean_gradient.clone(),
             change: system.change.clone(),
             push: projection.mixture.push.clone(),

@@ -23,37 +23,26 @@ pub(crate) struct Places<'a, const D: usize> {
 }
 
 /// The layers of a search.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(crate) struct Layers<const D: usize> {
     /// Layer of every free particle, phase after phase.
     layer: Vec<u32>,
     /// Whether fixed particles lie in a layer.
     held: Vec<bool>,
     /// Smallest and largest travel of a layer's particles `[m]`, not in order where there is none.
+    #[serde(skip)]
     travels: Vec<(Vector<D>, Vector<D>)>,
     periodic: bool,
 }
 
-/// Layers as they are saved.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub(crate) struct SavedLayers {
-    layer: Vec<u32>,
-    held: Vec<bool>,
-    periodic: bool,
-}
-
 impl<const D: usize> Layers<D> {
-    pub(crate) fn save(&self) -> SavedLayers {
-        SavedLayers { layer: self.layer.clone(), held: self.held.clone(), periodic: self.periodic }
-    }
-
     /// Takes saved layers of so many free particles.
-    pub(crate) fn restore(&mut self, saved: SavedLayers, particles: usize) -> Result<(), ForeignState> {
+    pub(crate) fn restore(&mut self, saved: Self, particles: usize) -> Result<(), ForeignState> {
         ForeignState::check("particles in layers", saved.layer.len(), particles)?;
         let inside = saved.layer.iter().filter(|&&layer| (layer as usize) < saved.held.len()).count();
         ForeignState::check("particles in known layers", inside, particles)?;
         let travels = vec![(Vector::zeros(), Vector::zeros()); saved.held.len()];
-        *self = Self { layer: saved.layer, held: saved.held, travels, periodic: saved.periodic };
+        *self = Self { travels, ..saved };
         Ok(())
     }
 

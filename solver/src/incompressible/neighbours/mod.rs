@@ -9,7 +9,7 @@ mod periods;
 pub use grid::Grid;
 pub(crate) use lane_list::SavedList;
 pub use lane_list::{LaneList, Sources};
-pub(crate) use layers::{Layers, Places, SavedLayers};
+pub(crate) use layers::{Layers, Places};
 pub use pairs::Pairs;
 pub(crate) use pairs::SavedPairs;
 pub use periods::{Across, Periods};

@@ -1,6 +1,6 @@
 //! The search of candidate pairs, when one is due.
 
-use super::super::neighbours::{Layers, Periods, SavedLayers};
+use super::super::neighbours::{Layers, Periods};
 use super::super::phase::{Phase, Phases};
 use super::drag_exchange::DragExchange;
 use crate::domain::Domain;
@@ -13,7 +13,8 @@ pub struct Search<const D: usize> {
     pub periods: Periods<D>,
     /// Skin over the reach of the fluid's kernel `[-]`.
     skin: f64,
-    layers: Layers<D>,
+    /// Those of the last search.
+    pub(crate) layers: Layers<D>,
     pub(crate) searches: u64,
 }
 
@@ -22,13 +23,8 @@ impl<const D: usize> Search<D> {
         Self { periods: Periods::of(domain), skin, layers: Layers::default(), searches: 0 }
     }
 
-    /// The layers of the last search.
-    pub(crate) fn save(&self) -> SavedLayers {
-        self.layers.save()
-    }
-
     /// Goes on from the layers of a saved search, the last of so many.
-    pub(crate) fn restore(&mut self, saved: SavedLayers, particles: usize, searches: u64) -> Result<(), ForeignState> {
+    pub(crate) fn restore(&mut self, saved: Layers<D>, particles: usize, searches: u64) -> Result<(), ForeignState> {
         self.searches = searches;
         self.layers.restore(saved, particles)
     }
