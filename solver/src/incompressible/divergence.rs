@@ -3,6 +3,8 @@
 
 use super::numerics::MOST_ITERATIONS;
 
+const RESIDUAL: &str = "(residual over its right-hand side)";
+
 /// The quantity that left its range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
@@ -19,39 +21,22 @@ pub(super) enum Quantity {
 }
 
 impl Quantity {
-    /// Its name in messages.
-    pub(super) fn name(self) -> &'static str {
+    /// Its name in messages, its unit or what is counted, and the rule that it broke, as that follows the value; `limit` is the largest
+    /// value allowed.
+    pub(super) fn texts(self, limit: f64) -> (&'static str, &'static str, String) {
+        let of_solve = format!(" after at most {MOST_ITERATIONS} iterations, above the tolerance of {limit:.1e}");
         match self {
-            Self::VelocityResidual => "implicit velocity",
-            Self::PressureResidual => "pressure Poisson equation",
-            Self::Displacement => "way in one step",
-            Self::GrainFriction => "friction of the grains",
-            Self::Reynolds => "Reynolds number",
-        }
-    }
-
-    /// Its unit, or what is counted.
-    pub(super) fn unit(self) -> &'static str {
-        match self {
-            Self::VelocityResidual | Self::PressureResidual => "(residual over its right-hand side)",
-            Self::Displacement => "spacings",
-            Self::GrainFriction => "m/s (last change of a velocity)",
-            Self::Reynolds => "of a grain",
-        }
-    }
-
-    /// The rule that it broke, as it follows the value in a message; `limit` is the largest value allowed.
-    pub(super) fn rule(self, limit: f64) -> String {
-        match self {
-            Self::VelocityResidual | Self::PressureResidual | Self::GrainFriction => {
-                format!(" after at most {MOST_ITERATIONS} iterations, above the tolerance of {limit:.1e}")
-            }
+            Self::VelocityResidual => ("implicit velocity", RESIDUAL, of_solve),
+            Self::PressureResidual => ("pressure Poisson equation", RESIDUAL, of_solve),
+            Self::GrainFriction => ("friction of the grains", "m/s (last change of a velocity)", of_solve),
             Self::Displacement => {
-                ", above the 1 that the model allows; the run needs a smaller time step, or its choice of operators is \
-                                   unstable"
-                    .to_owned()
+                let rule = ", above the 1 that the model allows; the run needs a smaller time step, or its choice of operators is \
+                            unstable";
+                ("way in one step", "spacings", rule.to_owned())
             }
-            Self::Reynolds => format!(", above the {limit:.4e} at which its drag law ends"),
+            Self::Reynolds => {
+                ("Reynolds number", "of a grain", format!(", above the {limit:.4e} at which its drag law ends"))
+            }
         }
     }
 }
@@ -69,7 +54,7 @@ pub(crate) struct Failure {
 
 impl Failure {
     /// A particle that would move by more than its spacing in a step, or by no number, in spacings `[-]`.
-    pub(super) fn displacement(row: usize, spacings: f64) -> Self {
+    pub(super) fn displacement((row, spacings): (usize, f64)) -> Self {
         Self { row, quantity: Quantity::Displacement, value: spacings, limit: 1.0 }
     }
 }

@@ -115,18 +115,10 @@ impl<const D: usize> State<D> {
     /// A failure with its place and time.
     pub(super) fn divergence(&self, failure: Failure) -> Divergence<D> {
         let Failure { row, quantity, value, limit } = failure;
+        let (quantity, unit, rule) = quantity.texts(limit);
         let (fluid, sediment) = (&self.phases.fluid.position, self.sediment());
         let grain = row.checked_sub(fluid.len()).and_then(|grain| sediment.position.get(grain));
         let position = grain.copied().unwrap_or_else(|| fluid[row.min(fluid.len() - 1)]);
-        Divergence {
-            time: self.time,
-            step: self.steps,
-            particle: row as u32,
-            position,
-            quantity: quantity.name(),
-            value,
-            unit: quantity.unit(),
-            rule: quantity.rule(limit),
-        }
+        Divergence { time: self.time, step: self.steps, particle: row as u32, position, quantity, value, unit, rule }
     }
 }

@@ -53,7 +53,7 @@ impl<const D: usize> Grains<D> {
     pub(crate) fn displace(&mut self, particle: usize, way: Vector<D>) -> Result<(), Failure> {
         let length = way.norm();
         if length.is_nan() || length > self.spacing {
-            return Err(Failure::displacement(particle, length / self.spacing));
+            return Err(Failure::displacement((particle, length / self.spacing)));
         }
         self.position[particle] += way;
         Ok(())

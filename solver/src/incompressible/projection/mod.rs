@@ -57,14 +57,8 @@ impl<const D: usize> Projection<D> {
         let (of_fluid, of_sediment) = predicted.split_at(fluid.len());
         let first = fluid.len();
         let (numerics, domain) = (&scene.numerics, &scene.domain);
-        let prediction = |velocity, correction| Prediction {
-            velocity,
-            correction,
-            numerics,
-            domain,
-            periods,
-            time_step,
-        };
+        let prediction =
+            |velocity, correction| Prediction { velocity, correction, numerics, domain, periods, time_step };
         project(fluid, &mut self.fluid, &prediction(of_fluid, Correction::Both))?;
         let (Some(sediment), Some(material)) = (sediment, &scene.sediment) else { return Ok(()) };
         let moved = match material.pressure {
@@ -77,8 +71,7 @@ impl<const D: usize> Projection<D> {
                 Ok(())
             }
             SedimentPressure::None | SedimentPressure::Dilatant { .. } => {
-                motion::drift(sediment, of_sediment, time_step)
-                    .map_err(|(particle, spacings)| Failure::displacement(particle, spacings))
+                motion::drift(sediment, of_sediment, time_step).map_err(Failure::displacement)
             }
         };
         moved.map_err(|failure| Failure { row: first + failure.row, ..failure })
@@ -109,8 +102,7 @@ fn project<const D: usize>(
     poisson.find_gauge(phase, numerics.surface);
     let solved = poisson.solve(phase, numerics, domain, velocity, correction, time_step);
     solved.map_err(|not_converged| residual(not_converged, numerics))?;
-    motion::correct(phase, poisson, velocity, numerics.pressure_source, time_step)
-        .map_err(|(particle, spacings)| Failure::displacement(particle, spacings))
+    motion::correct(phase, poisson, velocity, numerics.pressure_source, time_step).map_err(Failure::displacement)
 }
 
 /// A pressure Poisson equation that was not solved to its tolerance.

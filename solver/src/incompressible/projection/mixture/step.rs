@@ -81,8 +81,7 @@ impl<const D: usize> Mixture<D> {
         }
         let (free_fluid, largest) = (fluid.len(), fluid.spacing);
         for (row, &velocity) in predicted.iter().enumerate() {
-            motion::check(row, velocity, time_step, largest)
-                .map_err(|(row, spacings)| Failure::displacement(row, spacings))?;
+            motion::check(row, velocity, time_step, largest).map_err(Failure::displacement)?;
             let (phase, particle) =
                 if row < free_fluid { (&mut *fluid, row) } else { (&mut *sediment, row - free_fluid) };
             phase.velocity[particle] = velocity;
