@@ -155,10 +155,7 @@ impl Baseline {
     /// If they are malformed, which a test excludes.
     pub fn shipped(case: &str, tier: Tier) -> Result<Self, ParameterError> {
         let path = Self::path(Path::new(""), case, tier);
-        match shipped::text(&path) {
-            Some(text) => Self::parse(&path, text, case, tier),
-            None => Ok(Self::default()),
-        }
+        shipped::text(&path).map_or_else(|| Ok(Self::default()), |text| Self::parse(&path, text, case, tier))
     }
 
     fn parse(path: &Path, text: &str, case: &str, tier: Tier) -> Result<Self, ParameterError> {

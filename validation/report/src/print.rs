@@ -74,10 +74,8 @@ fn target(link: &str) -> String {
     if !anchor.is_empty() {
         return format!("#{anchor}");
     }
-    match own.strip_prefix("cases/").and_then(|case| case.strip_suffix("/index")) {
-        Some(case) => format!("#case-{case}"),
-        None => format!("#{own}"),
-    }
+    let case = own.strip_prefix("cases/").and_then(|case| case.strip_suffix("/index"));
+    case.map_or_else(|| format!("#{own}"), |case| format!("#case-{case}"))
 }
 
 #[cfg(test)]

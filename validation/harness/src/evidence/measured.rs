@@ -16,7 +16,7 @@
 //! holds labels.
 
 use crate::input::{FieldError, TableRows, is_mark, name_and_unit, plain_lines};
-use crate::metric::{Confidence, MetricKind};
+use crate::metric::Confidence;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -37,17 +37,6 @@ pub enum ReferenceKind {
     Measured,
     /// A sentence of a paper.
     Statement,
-}
-
-impl ReferenceKind {
-    /// Kind of verdict that such a reference value supports.
-    #[must_use]
-    pub fn kind(self) -> MetricKind {
-        match self {
-            Self::Analytic | Self::Computed => MetricKind::Verification,
-            Self::Fit | Self::Measured | Self::Statement => MetricKind::Validation,
-        }
-    }
 }
 
 /// Header of a reference file.

@@ -182,7 +182,6 @@ mod tests {
             assert_eq!(formula.transport(0.0), 0.0);
             assert!(formula.transport(critical + 1e-6) > 0.0);
             assert_eq!(formula.origin(), ReferenceKind::Fit);
-            assert_eq!(formula.origin().kind(), crate::metric::MetricKind::Validation);
             assert!(formula.confidence() != Confidence::Unverified, "{}", formula.name());
         }
     }
