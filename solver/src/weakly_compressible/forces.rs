@@ -51,7 +51,7 @@ impl<const D: usize> State<D> {
             Err(NotConverged { worst }) => {
                 let tolerance = self.model.numerics.viscous_tolerance;
                 let quantity = Quantity::ViscousResidual { tolerance, most_iterations: MOST_ITERATIONS };
-                Err(self.divergence(worst, quantity, self.viscous.residual()))
+                Err(self.divergence(worst, quantity, self.viscous.residual))
             }
         }
     }

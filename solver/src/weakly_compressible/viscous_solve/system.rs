@@ -77,8 +77,10 @@ pub struct ViscousSystem<const D: usize> {
     /// s L of every flow particle and image; before the iteration √(η/V) L, for the diagonal.
     pub(super) stresses: Records,
     pub(super) sums: Vec<BlockSums>,
-    pub(crate) iterations: u64,
-    pub(super) residual: f64,
+    /// Iterations of all solves.
+    pub iterations: u64,
+    /// Relative residual of the solve that failed `[-]`.
+    pub residual: f64,
     /// Work of the last solve `[J]`: that of the viscous forces beside those of the explicit step.
     pub(crate) work: f64,
 }
@@ -96,16 +98,6 @@ impl<const D: usize> ViscousSystem<D> {
             residual: 0.0,
             work: 0.0,
         }
-    }
-
-    /// Iterations of all solves.
-    pub fn iterations(&self) -> u64 {
-        self.iterations
-    }
-
-    /// Relative residual of the solve that failed `[-]`.
-    pub fn residual(&self) -> f64 {
-        self.residual
     }
 
     /// Room for the particles and for neighbour lists with `region` chunks a block.

@@ -252,7 +252,7 @@ fn the_solve_agrees_with_a_dense_one() {
         assert!((found - expected).norm() < 1e-7 * largest, "{found} and {expected}");
         assert!((found - given[index]).norm() > 1e-3, "the viscosity acts");
     }
-    assert!((10..400).contains(&patch.viscous.iterations()));
+    assert!((10..400).contains(&patch.viscous.iterations));
 }
 
 #[test]
@@ -333,7 +333,7 @@ fn a_force_that_is_no_number_is_refused_with_its_particle() {
     let found = solve.run(&mut patch.particles, &patch.images, &mut patch.viscous);
     assert_eq!(found, Err(NotConverged { worst: 11 }));
     let quantity = Quantity::ViscousResidual { tolerance: 0.1, most_iterations: MOST_ITERATIONS };
-    let divergence = patch.divergence(11, quantity, patch.viscous.residual());
+    let divergence = patch.divergence(11, quantity, patch.viscous.residual);
     assert_eq!(divergence.particle, patch.particles.identity[11]);
     assert!(divergence.value.is_nan() && divergence.to_string().contains("`viscous_tolerance`"), "{divergence}");
 }
