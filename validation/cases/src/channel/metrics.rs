@@ -26,8 +26,7 @@ const SNAPSHOT_ERRORS: f64 = 2.0;
 /// Iterations that a solve may take, over those that it is known to take `[-]`.
 const MORE_ITERATIONS: f64 = 1.1;
 
-const ITERATIONS_REASON: &str =
-    "10 % above the known count; a cold velocity solve takes 1.8 times, an unpreconditioned pressure solve 2.4 times";
+const ITERATIONS_REASON: &str = "10 % above the known iterations; velocity solves from zero need 1.8, pressure solves without preconditioner 2.4 times as many";
 
 impl ChannelObservation {
     /// Mean of a series over the window, with its statistical error; not a number where the run did not get there.
@@ -62,7 +61,7 @@ pub fn particles_lost(variant: &Variant, record: &Recorded<ChannelObservation>) 
     PARTICLES_LOST
         .of(variant, record.data.particles_lost as f64)
         .exactly(0.0, "no particle passes a wall")
-        .gated(Limit::AtMost(0.0), "a particle below the floor is lost mass")
+        .gated(Limit::AtMost(0.0), "0: a particle below the floor is lost mass")
 }
 
 /// How far momentum along the floor closes over the averaging window, over the impulse of the slope `[-]`, gated.
@@ -72,7 +71,7 @@ pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation
         .exactly(0.0, "change of momentum = gravity − friction of the bed, summed over every step")
         .gated(
             Limit::Within(-2e-12, 2e-12),
-            "2e-12: double-precision rounding, 1e-16 per term over ten thousand steps; pairs exchange opposite impulses",
+            "2e-12: double-precision rounding of 1e-16 per term in ten thousand steps; pairs exchange opposite impulses",
         )
         .with_snapshot_tolerance(0.0, 1e-11)
 }

@@ -14,5 +14,5 @@ pub(crate) fn particles_lost(variant: &Variant, record: &Recorded<LayerObservati
     PARTICLES_LOST
         .of(variant, record.data.particles_lost as f64)
         .exactly(0.0, "no particle passes a wall")
-        .gated(Limit::AtMost(0.0), "a particle below the bed is lost mass")
+        .gated(Limit::AtMost(0.0), "0: a particle below the bed is lost mass")
 }

@@ -46,7 +46,7 @@ fn of_run((run, record): &Record) -> Vec<Metric> {
     let spread = (!run.is_gated()).then(|| 100.0 * spread_of_water_fronts());
     metrics.extend([
         observed(FRONT_ERROR, 100.0 * error_at(&data.time, &data.front, measured, 0.0))
-            .gated_by(limit, "8 % of the measured front position, with gate and time as measured")
+            .gated_by(limit, "8 % of the measured front position, with lift gate and times as measured")
             .known_to(Origin::Digitisation, reading, READINGS)
             .known_to(Origin::Experiment, spread, SPREAD)
             .with_snapshot_tolerance(0.05, 0.2),
@@ -80,7 +80,7 @@ fn heights(run: &WaterColumnFlow, data: &ColumnObservation, delay: f64) -> Vec<M
             )
             .with_snapshot_tolerance(0.1, 0.1)
     };
-    let reason = "2.5 %, a row of twenty over twice the width; times as measured, nothing fitted";
+    let reason = "2.5 %: one of 40 particle rows over the height; times as measured, nothing fitted";
     let mut metrics = vec![metric(HEIGHT_ERROR, 0.0).gated_by(is_free.then_some(Limit::AtMost(ROW)), reason)];
     if is_free {
         metrics.push(metric(DELAYED_HEIGHT_ERROR, delay));

@@ -70,13 +70,13 @@ impl EnergyScale {
 const OPEN: f64 = 0.5;
 const OPEN_AT_REST: (f64, &str) = (1e-3, "0.001 %: a layer at rest does hardly any work; forces change within a step");
 const OPEN_FALL: (f64, &str) =
-    (0.25, "0.25 %: columns of up to three radii leave 0.04 to 0.21 %, as forces change within a step");
+    (0.25, "0.25 %: columns up to three radii high leave 0.04 to 0.21 %, as forces change within a step");
 const OPEN_STEADY: (f64, &str) =
-    (0.02, "0.02 %: an evenly sheared layer changes little within a step; ten rows leave 0.01 %");
+    (0.02, "0.02 %: a steadily sheared layer changes little within a step; ten rows leave 0.01 %");
 
-const WORK: &str = "of the largest work done: by gravity, by walls, dissipated, or brought in by what moves";
+const WORK: &str = "of the largest work: by gravity, by walls, dissipated, or brought in by moving inflow";
 
-const WORK_OR_WEIGHT: &str = "of the largest work done, by gravity, by walls, dissipated, or brought in by what moves; at least of a tenth of the \
+const WORK_OR_WEIGHT: &str = "of the largest work done, by gravity, by walls, dissipated, or brought in by moving inflow; at least of a tenth of the \
      weight times the scene's height";
 
 /// Least work that counts, over the weight times the height `[-]`.
@@ -90,24 +90,24 @@ const STEPS: f64 = 4.0;
 /// height leave 0.9 to 1.6.
 const STEPS_OF_IMPACT: f64 = 2.0;
 
-const OPEN_REASON: &str = "0.5 %, half of an error of 1 % in the largest term; forces change within a step";
+const OPEN_REASON: &str = "0.5 %: half of what an error of 1 % in the largest term would leave";
 
 /// Largest rise of the energy `[%]` with its reason: of an evenly sheared layer, and of all others.
-const RISE_STEADY: (f64, &str) = (0.002, "0.002 %: without sound waves the energy never rises; rounding remains");
+const RISE_STEADY: (f64, &str) = (0.002, "0.002 %: without sound waves only rounding can raise the energy");
 const RISE: (f64, &str) = (
     0.1,
-    "0.1 % for sound waves, whose energy a symplectic step keeps on average; a collapse behind a gate reaches a quarter",
+    "0.1 %: sound waves exchange energy within a period; a collapse behind a lift gate reaches a quarter of this limit",
 );
 
 const OPEN_REASON_OVER_TIME: &str =
-    "0.5 %, plus time steps: 4 Δt per √(H/g) in motion, Δt over the run, two per impact";
+    "0.5 %, plus time-step errors: 4 Δt/√(H/g) in motion, Δt over the run, two steps per impact";
 
 /// The residual over a scale.
 pub fn residual(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Metric {
     let (energy, named, (open, reason)) = scale.of(book);
     ENERGY_RESIDUAL
         .of(variant, 100.0 * book.residual() / energy)
-        .exactly(0.0, &format!("every term of the scheme books its work; in per cent {named}"))
+        .exactly(0.0, &format!("the works of all terms of the scheme sum to the change of energy; in % {named}"))
         .gated(Limit::AtMost(open), reason)
         .with_snapshot_tolerance(0.2, 1e-3)
 }
@@ -124,7 +124,7 @@ pub fn metrics(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Vec<
         residual(variant, book, scale),
         ENERGY_RISE
             .of(variant, share(book.rise()))
-            .exactly(0.0, &format!("no wall and no term may feed energy into the flow; in per cent {named}"))
+            .exactly(0.0, &format!("no wall and no term of the scheme may add energy to the flow; in % {named}"))
             .gated(Limit::AtMost(rise), rise_reason)
             .with_snapshot_tolerance(0.2, 1e-3),
         WALL_WORK

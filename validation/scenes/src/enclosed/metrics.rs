@@ -104,7 +104,7 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                 .exactly(0.0, "an exact solve leaves nothing")
                 .gated(
                     Limit::AtMost(MOST_UNSOLVED),
-                    "0.5 %, as for the energy ledger; a smaller `viscous_tolerance` leaves less",
+                    "0.5 %, as for the energy balance; a smaller `viscous_tolerance` reduces this",
                 )
                 .with_snapshot_tolerance(1.0, 1e-3),
         );
@@ -201,7 +201,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
             .exactly(0.0, "no particle is lost: it is inside, or has left by an open side")
             .gated(
                 Limit::AtMost(1e-10),
-                "1e-10 %: rounding of a sum over up to millions of particles; thousands leave 1e-14 of the mass",
+                "1e-10 %: rounding of a sum over up to millions of particles; thousands leave 1e-12 %",
             )
             .with_snapshot_tolerance(1.0, 1e-9),
         MOMENTUM_RESIDUAL
@@ -212,7 +212,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
         THROUGH_WALLS
             .of(variant, data.behind as f64)
             .exactly(0.0, "walls hold")
-            .gated(Limit::AtMost(0.0), "walls are impermeable: a particle left behind one makes the run invalid")
+            .gated(Limit::AtMost(0.0), "0: walls are impermeable; a particle behind a wall makes the run invalid")
             .with_snapshot_tolerance(0.0, 0.0),
         MASS_LEFT
             .of(variant, 100.0 * data.left.iter().map(|side| side.mass).sum::<f64>() / mass)
@@ -244,7 +244,7 @@ fn feeds<S: Dimension<D>, const D: usize>(
             FEED_ERROR
                 .of(&own, fed.farthest)
                 .exactly(0.0, "the integral of the rate; material comes in row by row")
-                .gated(Limit::AtMost(FARTHEST), "0.7 rows: half a row, and the rows' motion in one step at 0.2 c")
+                .gated(Limit::AtMost(FARTHEST), "0.7 spacings: half of one, plus one step's motion at 0.2 c")
                 .with_snapshot_tolerance(0.5, 0.1),
         ]
     };

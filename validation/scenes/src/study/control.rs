@@ -122,10 +122,10 @@ impl Study {
             };
             let variant =
                 Variant::of("control", name.as_str()).and("check", metric.name.as_str()).followed_by(&metric.variant);
-            let reason = "a check that holds with what is known to be wrong says nothing of the right run";
+            let reason = "1: a check that passes with a known error cannot judge the correct run";
             let judged =
                 Metric::observed("rejects_control", &variant, rejected, "-").gated(Limit::AtLeast(1.0), reason);
-            Some(judged.exactly(1.0, "the control is wrong by choice").of_user())
+            Some(judged.exactly(1.0, "the negative control contains a known error").of_user())
         };
         own.filter_map(number).collect()
     }

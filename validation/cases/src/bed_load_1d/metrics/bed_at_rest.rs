@@ -43,14 +43,14 @@ pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, rest: &LayerState
             None,
             "near the bed slower than without moving grains",
             Limit::AtMost(-0.1),
-            "0.1 u_* slower, so that equal velocities fail",
+            "at least 0.1 u_* slower, so that equal velocities fail",
         ),
         (
             ABOVE,
             Some(0.0),
             "above as fast as without moving grains",
             Limit::Within(-0.25, 0.25),
-            "0.25 u_*, the limit of clear water: 2 % of the depth mean",
+            "0.25 u_*, as for clear water: 2 % of the depth-averaged velocity",
         ),
     ];
     for (height, expected, statement, limit, reason) in statements {
@@ -71,7 +71,10 @@ pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, rest: &LayerState
             LAYER_SLOPE_RATIO
                 .of(&variant, own / without)
                 .against(None, statement, Confidence::Medium)
-                .gated_by(is_shown.then_some(Limit::AtLeast(1.05)), "5 % faster, more than the error of the cells")
+                .gated_by(
+                    is_shown.then_some(Limit::AtLeast(1.05)),
+                    "5 % faster growth, beyond the discretisation error",
+                )
                 .with_snapshot_tolerance(0.01, 0.0),
         );
     }

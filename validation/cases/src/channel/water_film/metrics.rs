@@ -30,11 +30,11 @@ pub(super) enum FilmDepth {
 
 pub(super) fn all(records: &[WaterFilmRecord]) -> Vec<Metric> {
     let orders = [
-        (OBSERVED_ORDER, FilmDepth::Nominal, "0.7: walls and surface give first order"),
+        (OBSERVED_ORDER, FilmDepth::Nominal, "0.7: walls and free surface give first order"),
         (
             OBSERVED_ORDER_OWN_DEPTH,
             FilmDepth::Own,
-            "0.7: walls and surface give first order, without the error of the depth",
+            "0.7: walls and free surface give first order, even without the depth's error",
         ),
     ];
     let order = |(quantity, depth, reason): (Quantity, FilmDepth, &str)| {
@@ -65,7 +65,7 @@ fn of_run((run, record): &WaterFilmRecord) -> Vec<Metric> {
     let mut metrics = vec![
         channel::particles_lost(&variant, record),
         channel::momentum_residual(&variant, record),
-        error(VELOCITY_L2, FilmDepth::Nominal).gated_by(limit, "0.8 % at 20 rows, for lattice and perturbed starts"),
+        error(VELOCITY_L2, FilmDepth::Nominal).gated_by(limit, "0.8 % with 20 particles, on a lattice or perturbed"),
         error(VELOCITY_L2_OWN_DEPTH, FilmDepth::Own),
         channel::height_change(&variant, data, "mean height h/2; the velocity goes with the square of the depth"),
         channel::bed_shear(&variant, data, density * gravity * depth * run.slope),
@@ -74,7 +74,7 @@ fn of_run((run, record): &WaterFilmRecord) -> Vec<Metric> {
             .exactly(0.0, "nothing tells one place along the film from another")
             .gated_by(
                 (run.arrangement == Arrangement::Lattice).then_some(Limit::AtMost(1e-4)),
-                "1e-4: the velocity solve's residual of 1e-6 leaves 1e-5; a perturbed start leaves 4e-3",
+                "1e-4: the velocity solver's residual of 1e-6 leaves 1e-5; a perturbed lattice leaves 4e-3",
             )
             .with_snapshot_tolerance(0.5, 1e-5),
     ];

@@ -143,13 +143,13 @@ fn hourglass_spreads<const D: usize>(study: &ConvergenceStudy<'_, D>, quantity: 
         let (limit, reason) = match (quantity, resolution) {
             ("centroid", ..40) => (None, ""),
             ("centroid", _) => {
-                (Some(0.5), "the project's aim: the hourglass coefficient moves the centroid by 0.5 % at most")
+                (Some(0.5), "the project's aim: the hourglass coefficient changes the centroid by at most 0.5 %")
             }
             (_, ..40) => {
-                (Some(5.0), "the project's aim: 5 %, one row of particles, below 40 particles over the half width")
+                (Some(5.0), "the project's aim: 5 %, one row, with fewer than 40 particles over the half width")
             }
-            (_, ..80) => (Some(3.0), "the project's aim: 3 % from 40 particles over the half width"),
-            _ => (Some(1.5), "the project's aim: 1.5 % from 80 particles over the half width"),
+            (_, ..80) => (Some(3.0), "the project's aim: 3 % from 40 particles over the half width on"),
+            _ => (Some(1.5), "the project's aim: 1.5 % from 80 particles over the half width on"),
         };
         let source = "largest less smallest over the mean, coefficient by coefficient: a modelling uncertainty";
         metric
@@ -173,7 +173,7 @@ fn of_ensembles(variant: Variant, means: &[Mean], largest_index: f64) -> Vec<Met
             .exactly(0.0, source)
             .gated(
                 Limit::AtMost(100.0 * largest_index),
-                "the project's aim: 3 % for the centroid, 8 % for the run-out, scatter included",
+                "the project's aim: 3 % for the centroid, 8 % for the run-out, with scatter between seeds",
             ),
     ]
 }

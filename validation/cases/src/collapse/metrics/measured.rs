@@ -75,12 +75,12 @@ pub(super) fn of_pile<const D: usize>(
             .known_to(Origin::Digitisation, Some(pile.front_reading() / r), READING)
             .gated_by(
                 judged(band(run_out, PILE_RUN_OUT)),
-                "33 %, twice the uncertainty: rate-dependence of the bars' friction (unmeasured), their friction angle, toe row, reading",
+                "33 %, twice the uncertainty: unmeasured rate dependence of the rods' friction, friction angle, toe, reading of the figure",
             ),
         with_friction(of_height, records, run, |(_, other)| Some(other.data.final_height() - tall))
             .known_to(Origin::Digitisation, Some(pile.reading / r), READING)
             .known_to(Origin::Experiment, Some(pile.excess().abs() * height), AREA)
-            .gated_by(judged(band(height, PILE_HEIGHT)), "3 %, twice the error of the area under the measured points"),
+            .gated_by(judged(band(height, PILE_HEIGHT)), "3 %: twice the error of the area under the measured points"),
         with_friction(of_surface, records, run, moved)
             .known_to(Origin::Digitisation, Some(100.0 * pile.reading / pile.height), READING)
             .known_to(Origin::Experiment, Some(over_surface(pile, |_, measured| pile.excess() * measured)), AREA)
@@ -89,7 +89,7 @@ pub(super) fn of_pile<const D: usize>(
                 Some(100.0 * run.spacing() / pile.height / 12.0_f64.sqrt()),
                 "the surface of particles lies within a row: an even spread of that width",
             )
-            .gated_by(judged(Limit::AtMost(PILE_SURFACE)), "5 % of the initial height, one row of twenty"),
+            .gated_by(judged(Limit::AtMost(PILE_SURFACE)), "5 % of the initial height: one particle row of twenty"),
     ];
     let lengths = |run: &ColumnFlow<D>, frames: &[Frame]| {
         Some(wedge_of(run, frames)?.boundary.iter().map(|&(x, y)| (y, x)).collect::<Vec<(f64, f64)>>())
@@ -134,7 +134,7 @@ pub(super) fn of_round_column<const D: usize>(
             .gated_by(
                 (run.is_resolved() && run.is_published())
                     .then_some(Limit::Within(1.0 - ROUND, 1.0 + ROUND)),
-                "the project's aim: 20 %; the measured grains are unnamed, and grains changed Lube's run-outs by less",
+                "the project's aim: 20 %; the source names no grains, and run-outs of Lube's grains differed by less",
             ),
     )
 }
@@ -156,7 +156,7 @@ pub(super) fn of_round_columns(ratios: &[(f64, Metric)]) -> Option<Metric> {
             .known_to(Origin::Experiment, Some(standard), "those of the single ratios, as of a median")
             .gated(
                 Limit::Within(1.0 - 0.5 * ROUND, 1.0 + 0.5 * ROUND),
-                "half the limit of a single column: a median keeps the bias and averages the scatter",
+                "10 %, half the limit of one column: a median over columns reduces the scatter",
             )
             .with_snapshot_tolerance(1e-3, 1e-3),
     )

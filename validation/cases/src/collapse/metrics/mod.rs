@@ -117,7 +117,7 @@ pub(crate) fn conservation(
         PARTICLES_LOST
             .of(variant, collapse.lost as f64)
             .exactly(0.0, "no particle passes the bed, the symmetry plane or the bed's end")
-            .gated(Limit::AtMost(0.0), "grains do not vanish"),
+            .gated(Limit::AtMost(0.0), "0: a lost particle is lost mass"),
     ];
     metrics.extend(energy_ledger::metrics(variant, &collapse.energy, scale));
     // an implicit step keeps no account of what the walls gave
@@ -128,7 +128,7 @@ pub(crate) fn conservation(
                 .exactly(0.0, "momentum against gravity and what bed, planes, gate and contacts gave, over M g t")
                 .gated(
                     Limit::AtMost(1e-7),
-                    "1e-7: forces cancel in pairs up to single-precision rounding, 6e-8 of a force of varying sign",
+                    "1e-7: pair forces cancel up to single-precision rounding, 6e-8 of each force",
                 )
                 .with_snapshot_tolerance(0.0, 1e-10),
         );
@@ -159,10 +159,7 @@ pub(crate) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, lo
         .of(variant, collapse.rest_time())
         .against(None, "grains with a yield stress come to rest", Confidence::Exact)
         .with_snapshot_tolerance(0.02, 0.0)
-        .gated_by(
-            limit,
-            "after the front's arrest (99 % of the run-out), before the run's longest time; creeping heaps do not rest",
-        )
+        .gated_by(limit, "rest must follow the front's stop (99 % of the run-out), before the run ends")
 }
 
 /// Where the true value of a user's own grains lies, by how far those of published ones were off.
@@ -230,7 +227,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
             )
             .gated_by(
                 of_sand.then_some(Limit::Within(2.25, 3.6)),
-                "2.5, 3 and 3.3 from three sources, widened by 10 % for their definitions of the stop",
+                "three sources give 2.5, 3 and 3.3; 10 % more, for each defines the stop differently",
             ),
         at_rest(&variant, collapse, &run.material, run.duration * run.time_scale()),
         if friction > 0.0 {
@@ -238,7 +235,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
                 .exactly(steepest, "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front")
                 .gated(
                     flattest(run).map_or(Limit::AtMost(steepest), |flattest| Limit::Within(flattest, steepest)),
-                    "at most the friction angle; planar sand also at least the slope of Lajeunesse's laws less 15 %",
+                    "at most the friction angle; for planar sand at least the slope by Lajeunesse's laws less 15 %",
                 )
         } else {
             slope
@@ -251,7 +248,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
             )
             .gated_by(
                 (of_sand && CONES.contains(&a)).then_some(Limit::AtLeast(BENT_FLANK)),
-                "0.973: a flank whose lower half is half as steep as its upper half",
+                "0.973, the value of a flank whose lower half is half as steep as the upper",
             ),
         HEIGHT_BY_TOP
             .of(&variant, 100.0 * (collapse.top / collapse.final_height() - 1.0))
@@ -259,7 +256,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
             .with_snapshot_tolerance(0.01, 0.2)
             .gated_by(
                 (a <= 5.0).then_some(Limit::Within(-10.0, 10.0)),
-                "the project's aim: 10 % up to a = 5; particles standing above the heap exceed it",
+                "the project's aim: 10 % up to a = 5; single particles above the heap would exceed this",
             ),
     ];
     let (x96, x99) = collapse.quantiles;

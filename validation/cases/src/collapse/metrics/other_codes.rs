@@ -11,13 +11,11 @@ use crate::reference::grains::GLASS_BEADS;
 use crate::statistics::{Extrapolation, interpolated};
 use bagnold_solver::material::rheology::Rheology;
 
-const REASON: &str =
-    "15 %, twice the standard deviation (7.5 %) of four methods' run-outs for one column of these grains";
+const REASON: &str = "15 %: twice the standard deviation of four codes' run-outs for one column of these grains";
 
 /// Largest distance of a deposit's centroid from the mean of two other methods under the same law `[-]`.
 const SAME_CENTROID: f64 = 0.077;
-const CENTROID_REASON: &str =
-    "7.7 %, twice the standard deviation of one method from the mean of two others (√1.5 · 3.15 %)";
+const CENTROID_REASON: &str = "7.7 %: twice the standard deviation of one code from the mean of two others";
 
 /// Time at which columns are compared, over √(h_0/g) `[-]`: later the other codes are known less well, earlier laws differ by less.
 pub(crate) const MID_COLLAPSE: f64 = 2.0;

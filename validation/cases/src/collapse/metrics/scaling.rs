@@ -126,11 +126,11 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
             metrics.extend([
                 observed(SCALING_EXPONENT, scaling.law.value).against(None, published, Confidence::High).gated_by(
                     gate.map(|gate| within_reach(gate, scaling.half_width)),
-                    "published range widened by the exponent's 95 % interval; exponents depend little on the material",
+                    "published range, widened by this exponent's 95 % interval; published exponents depend little on the material",
                 ),
                 observed(SCALING_CONFIDENCE, scaling.half_width).against(None, interval, Confidence::Exact).gated_by(
                     gate.map(|_| Limit::AtMost(WIDEST)),
-                    "95 % interval narrower than the published ranges: 0.1 for run-outs, 0.15 for heights",
+                    "width of the range of published exponents: 0.1 for run-outs, 0.15 for heights",
                 ),
             ]);
             if quantity == RUN_OUT.name
@@ -148,7 +148,7 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
                     .of(&variant.and("aspect_ratio", ratios), law.value)
                     .against(None, &lube.source, lube.confidence)
                     .known_to(Origin::Numerical, Some(law.standard_error), "scatter about the fit")
-                    .gated_by(gate, "10 %: low columns run out in proportion to their aspect ratio")
+                    .gated_by(gate, "10 %: the run-out of low columns is proportional to the aspect ratio")
                     .with_snapshot_tolerance(1e-2, 5e-3),
             );
         }

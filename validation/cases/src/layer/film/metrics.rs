@@ -42,7 +42,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         );
         metrics.push(match particles {
             Arrangement::Lattice => order
-                .gated(Limit::AtLeast(1.5), "the project's aim: order 1.5 on the lattice")
+                .gated(Limit::AtLeast(1.5), "the project's aim: order 1.5 on a lattice")
                 .with_snapshot_tolerance(0.01, 0.0),
             // no order of its own: it ends where the floor begins
             Arrangement::Jittered => order.with_snapshot_tolerance(0.05, 0.05),
@@ -121,7 +121,8 @@ fn skin_difference(records: &[Record]) -> Option<Metric> {
     let velocities = wide.velocity.iter().copied().zip(own.velocity.iter().copied());
     let difference = 100.0 * relative_l2(velocities.filter(|(wide, own)| wide.is_finite() && own.is_finite()));
     // pairs are single precision, and lists group the sums over them
-    let reason = "1e-4 %: single-precision rounding, not amplified in a laminar film; double precision leaves 1e-13 %";
+    let reason =
+        "1e-4 %: single-precision rounding, which laminar films do not amplify; double precision leaves 1e-13 %";
     Some(
         SKIN_DIFFERENCE
             .of(&run.variant(), difference)
@@ -139,17 +140,17 @@ fn profile(record: &Record) -> Vec<Metric> {
     let rows = if points > BINS { run.layer.resolution.max(points) } else { run.layer.resolution };
     let limit = match (run.film(), rows) {
         (SteadyFilm::Newtonian(_), 10..) if run.top == Top::Mirror => {
-            Some((3.0, "3 % at ten rows (free film: 1.3 %); a mirror that transmits shear bends the profile"))
+            Some((3.0, "3 % with 10 particles over the depth; a mirror that transmits shear bends the profile"))
         }
-        (SteadyFilm::Newtonian(_), 40..) => Some((1.0, "the project's aim: 1 % at 40 rows")),
-        (SteadyFilm::Newtonian(_), 20..) => Some((2.0, "2 %: 1 % at 40 rows, first order at worst")),
+        (SteadyFilm::Newtonian(_), 40..) => Some((1.0, "the project's aim: 1 % with 40 particles over the depth")),
+        (SteadyFilm::Newtonian(_), 20..) => Some((2.0, "2 %: 1 % with 40 particles, first order at worst")),
         (SteadyFilm::Eddies(_), 20..) => {
-            Some((3.0, "3 %: 2 % of the plain film, half more for a stress quadratic in the rate"))
+            Some((3.0, "3 %: 2 % as for Newtonian films, half more for a stress quadratic in the rate"))
         }
         // what a law of one's own may be off by is for its author to say
         (SteadyFilm::Integrated(_), _) => None,
-        (_, 40..) => Some((2.0, "the project's aim: 2 % at 40 rows")),
-        (_, 20..) => Some((3.0, "3 %: 2 % at 40 rows, of which 1 % is the regularisation's creep")),
+        (_, 40..) => Some((2.0, "the project's aim: 2 % with 40 particles over the depth")),
+        (_, 20..) => Some((3.0, "3 %: 2 % with 40 particles, half of which is the regularisation's creep")),
         _ => None,
     };
     let exact = if matches!(run.film(), SteadyFilm::Integrated(_)) { INTEGRATED } else { EXACT };
@@ -174,7 +175,7 @@ fn plug_edge((run, record): &Record) -> Option<Metric> {
     let points: Vec<(f64, f64)> = sheared.map(|(y, rate)| (y, libm::pow(rate.abs(), film.flow_index()))).collect();
     let edge = linear_fit(&points).map_or(f64::NAN, |fit| -fit.intercept / fit.slope);
     let spacing = run.layer.layer_height / run.layer.resolution as f64;
-    let reason = "one spacing, from a line through |du/dy|ⁿ over 0.1 Y … 0.8 Y";
+    let reason = "one spacing; a line through |du/dy|ⁿ over 0.1 Y … 0.8 Y gives the edge";
     let error = PLUG_EDGE_ERROR
         .of(&run.variant(), (edge - exact) / spacing)
         .exactly(0.0, "edge of the plug at h − τ_y/(ρ g sinθ)")

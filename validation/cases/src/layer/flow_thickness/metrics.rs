@@ -44,9 +44,9 @@ fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
     };
     // a bracket of this width has its middle within half of it of the true angle
     let (limit, reason) = if nonlocal.is_some() {
-        (0.5 * flow.stopping_tolerance, "half the bracket: the layer stops at its lower end and flows at its upper end")
+        (0.5 * flow.stopping_tolerance, "half the bracket between a slope where the layer stops and one where it flows")
     } else {
-        (flow.stopping_tolerance, "width of the bracket: half of it for the true angle, half for the solver")
+        (flow.stopping_tolerance, "width of the bracket: half for the angle inside it, half for the solver")
     };
     // which condition holds at a free surface experiments say, not the model: they favour that under which the fluidity vanishes
     let judged = flow.surface_name().is_none_or(|surface| surface == "vanishing");
@@ -57,7 +57,7 @@ fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
         PARTICLES_LOST
             .of(&variant, lost as f64)
             .exactly(0.0, "no particle passes the bed")
-            .gated(Limit::AtMost(0.0), "grains do not vanish"),
+            .gated(Limit::AtMost(0.0), "0: a lost particle is lost mass"),
         STOPPING_ANGLE
             .of(&variant, measured)
             .with_snapshot_tolerance(0.0, 1e-6)
@@ -94,7 +94,7 @@ fn profile(flow: &FlowThicknessFlow, data: &LayerObservation) -> Option<[Metric;
             .exactly(0.0, "steady solution of the nonlocal law in finite volumes over 4000 cells, without particles")
             .gated(
                 Limit::AtMost(allowed),
-                "1 % at 20 rows, 0.5 % at 40; near h_stop 0.1 % of friction is 1.2 % of velocity",
+                "1 % with 20 particles, 0.5 % with 40; near h_stop, 0.1 % in friction is 1.2 % in velocity",
             ),
         FLUIDITY_FROUDE
             .of(&variant, froude_number(flow, data))
@@ -135,11 +135,11 @@ fn flow_rule(records: &[Record]) -> Vec<Metric> {
             .exactly(expected, "(41) solved for β at the slopes of the flows: an identity of the law")
             .gated(
                 Limit::Within(0.97 * expected, 1.03 * expected),
-                "3 %: an error of 0.1 % in friction is 0.8 % (25°) to 2 % (22°) in velocity",
+                "3 %: 0.1 % in friction changes the velocity by 0.8 % (25°) to 2 % (22°)",
             ),
         of(FLOW_COEFFICIENT_PUBLISHED).against(Some(published), "Table 1, β of glass beads", confidence).gated(
             Limit::Within(0.95 * published, 1.05 * published),
-            "5 %, an identity of the law (I_0 follows from β); 0.1 % in friction gives up to 2 %",
+            "5 %: I_0 was derived from β; an error of 0.1 % in friction changes β by up to 2 %",
         ),
     ]
 }

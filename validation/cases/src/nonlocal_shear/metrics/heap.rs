@@ -16,7 +16,7 @@ fn creep(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
     let mut metrics = decay(run, seen, exact);
     metrics.push(velocity_l2(run, seen, exact).gated(
         Limit::AtMost(2.0 * coarseness(run)),
-        "2 % at two particles per grain, 1 % at four: first order, as below a plate",
+        "2 % with two particles per grain, 1 % with four: first order, as below a plate",
     ));
     metrics
 }
@@ -43,12 +43,12 @@ fn depth(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
             .exactly(expected, EXACT_LOCAL)
             .gated(
                 Limit::Within(expected - row, expected + row),
-                "one row of particles: velocity gradients are means over neighbours, which straddle the depth where flow ends",
+                "one particle row: velocity gradients average over neighbours on both sides of the depth where flow ends",
             )
             .with_snapshot_tolerance(5e-3, 0.0),
         velocity_l2(run, seen, exact).exactly(0.0, EXACT_LOCAL).gated(
             Limit::AtMost(3.0 * coarseness(run)),
-            "3 % at two particles per grain, first order; 0.1 rows' shift of the flow's lower edge gives 1 %",
+            "3 % with two particles per grain: shifting the flow's lower edge by 0.1 rows gives 1 %",
         ),
     ]
 }
@@ -72,7 +72,7 @@ pub(super) fn orders(records: &[Record]) -> Vec<Metric> {
             .exactly(2.0, "sums over neighbours are of second order where the shear rate is smooth")
             .gated(
                 Limit::AtLeast(1.0),
-                "first order: the shear rate has a kink where flow ends, between randomly perturbed particles",
+                "first order: particles are perturbed, and the shear rate has a kink where flow ends",
             )
             .with_snapshot_tolerance(0.1, 0.1)
     };

@@ -59,7 +59,7 @@ fn of_run((run, record): &Record) -> Vec<Metric> {
     let lost = PARTICLES_LOST
         .of(&variant, seen.particles_lost as f64)
         .exactly(0.0, "no particle passes a wall")
-        .gated(Limit::AtMost(0.0), "a particle behind a wall is lost mass");
+        .gated(Limit::AtMost(0.0), "0: a particle behind a wall is lost mass");
     let energy = match run.drive {
         Drive::Chute | Drive::Heap => energy_ledger::metrics(&variant, &seen.energy, EnergyScale::Steady),
         // the plate feeds energy in, and its work is none of an error
@@ -84,7 +84,7 @@ fn unevenness(run: &NonlocalShearFlow, seen: &ShearObservation, variant: &Varian
     PRESSURE_UNEVENNESS
         .of(variant, 100.0 * largest / seen.mean_pressure())
         .exactly(0.0, "a pressure that is uniform in a chute and that of the weight in a bed")
-        .gated(Limit::AtMost(1.0), "1 %: a row's pressure error is its friction error, small in the mean over rows")
+        .gated(Limit::AtMost(1.0), "1 %: pressure errors change the friction of a row, but average out over rows")
         .with_snapshot_tolerance(0.1, 1e-2)
 }
 
@@ -119,14 +119,14 @@ fn chute(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
         length_metric(WALL_LAYER.of(&variant, layer / diameter), expected / diameter, run),
         velocity_l2(run, seen, exact).gated(
             Limit::AtMost(5.0 * coarseness),
-            "5 % at two particles per grain, 2.5 % at four; velocity scales as friction^14, so 0.4 % of friction",
+            "5 % with two particles per grain: velocity scales as friction^14, so 5 % is 0.4 % of friction",
         ),
         FRICTION_ERROR
             .of(&variant, 100.0 * (implied / flow.wall_friction - 1.0))
             .exactly(0.0, EXACT)
             .gated(
                 Limit::Within(-0.4 * coarseness, 0.4 * coarseness),
-                "0.4 % at two particles per grain, 0.2 % at four; it moves the velocity by 5 %",
+                "0.4 % with two particles per grain: this changes the velocity by 5 %",
             )
             .with_snapshot_tolerance(0.1, 1e-2),
     ]
@@ -143,12 +143,12 @@ fn dragged_bed(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactSh
         TRACTION_ERROR
             .of(&variant, 100.0 * (mean(&seen.shear_stress) / traction - 1.0))
             .exactly(0.0, EXACT)
-            .gated(Limit::Within(-0.5, 0.5), "0.5 %: the traction hardly depends on the velocity and its error")
+            .gated(Limit::Within(-0.5, 0.5), "0.5 %: the traction hardly depends on errors of the velocity")
             .with_snapshot_tolerance(0.1, 1e-2),
     );
     metrics.push(velocity_l2(run, seen, exact).gated(
         Limit::AtMost(2.0 * coarseness(run)),
-        "2 % at two particles per grain, 1 % at four: first order in a layer six diameters thick",
+        "2 % with two particles per grain, 1 % with four: first order, layer six diameters thick",
     ));
     metrics
 }
@@ -190,7 +190,7 @@ fn decay(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
         .exactly(expected, EXACT)
         .gated(
             Limit::AtLeast(0.98),
-            "0.98: near-exponential decay leaves at most 2 % of the logarithm's variance, a sharp edge far more",
+            "0.98: a line fits the logarithm of a near-exponential decay, but not that of a sharp edge",
         )
         .with_snapshot_tolerance(1e-3, 0.0);
     vec![length(TAIL), length(DEEP_TAIL), straight]
@@ -203,7 +203,7 @@ fn length_metric(metric: Metric, expected: f64, run: &NonlocalShearFlow) -> Metr
         .exactly(expected, EXACT)
         .gated(
             Limit::Within((1.0 - allowed) * expected, (1.0 + allowed) * expected),
-            "5 % at two particles per grain, the fewest that resolve 1.2 diameters; 2.5 % at four",
+            "5 % with two particles per grain, the fewest that resolve 1.2 diameters; 2.5 % with four",
         )
         .with_snapshot_tolerance(5e-3, 0.0)
 }

@@ -49,7 +49,7 @@ pub(super) fn all() -> Vec<Metric> {
                 .against(Some(1.0), &beads.source, beads.confidence)
                 .gated(
                     Limit::Within(0.5, 2.0),
-                    "a factor of two: at half the space filled, drag laws fitted to separate experiments differ nearly as much",
+                    "a factor of two: at solid fraction 0.5, drag laws fitted to different experiments differ nearly as much",
                 )
                 .with_snapshot_tolerance(1e-6, 0.0)
                 .known_to(Origin::Numerical, Some(1e-3), "particles meet the root of a law within 0.1 %, by the case's own gates")

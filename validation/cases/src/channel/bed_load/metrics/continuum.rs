@@ -35,7 +35,7 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
             )
             .gated(
                 Limit::Within(-0.01, 0.01),
-                "0.01 for particles that cross a gradient of φ; drag and pressure only exchange momentum between water and grains",
+                "0.01: drag and pressure only exchange momentum; particles that cross gradients of φ cause the residual",
             )
             .with_snapshot_tolerance(0.1, 1e-3),
     );
@@ -46,9 +46,9 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
         |quantity, estimate, exact| channel::observed(quantity, &variant, estimate, 1.0).exactly(exact, source);
     let profile = &data.channel.profile;
     let (most, reason) = if dilating {
-        (0.1, "0.1 u_*: a profile shifted by 1/12 of a 1 mm spacing, as at all spacings")
+        (0.1, "0.1 u_*: the profile may be shifted by 1/12 of a 1 mm spacing")
     } else {
-        (0.25, "0.25 u_*: a shift by a fifth of a 1 mm spacing at the steepest gradient, 1.4 u_* per mm")
+        (0.25, "0.25 u_*: a profile shifted by 0.2 mm, where velocity grows by 1.4 u_*/mm")
     };
     let rms = profile.estimate(|points| profiles::fluid_rms(run, points, layer));
     let mean = profile.estimate(|points| profiles::fluid_mean(run, points, layer));
@@ -56,7 +56,7 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
         observed(FLUID_VELOCITY_RMS, rms, 0.0).gated_by(gate(Limit::AtMost(most)), reason),
         observed(FLUID_VELOCITY_MEAN, mean, 1.0).gated_by(
             gate(Limit::Within(0.97, 1.03)),
-            "3 %: the profile's shift, up to 0.25 u_*, over a depth mean of 10 u_*",
+            "3 %: a shifted profile is wrong by up to 0.25 u_*; the depth average is 10 u_*",
         ),
     ]);
     if run.formulation == BedLoadFormulation::Porous {
@@ -67,11 +67,11 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
     metrics.extend([
         observed(GRAIN_VELOCITY_RMS, rms, 0.0).gated_by(
             gate(Limit::AtMost(0.2)).filter(|_| !dilating),
-            "0.2 u_*: the grains' profile, 0.7 u_* per mm, shifted by a third of a 1 mm spacing",
+            "0.2 u_*: a profile shifted by 0.3 mm, where grain velocity grows by 0.7 u_*/mm",
         ),
         DRAG_RATIO.of(&variant, force).exactly(1.0, source).with_snapshot_tolerance(0.0, 0.02).gated_by(
             gate(Limit::Within(0.95, 1.05)).filter(|_| dilating),
-            "5 % for bins cut by the bed's top; grains take over the water's stress for any profile",
+            "5 %: the bed's top cuts bins; drag balances the water's stress for any profile",
         ),
     ]);
     let rate = data.mean_transport();
@@ -79,13 +79,13 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
         let expected = run.formula_transport();
         metrics.push(by_formula(channel::observed(PREDICTED_TRANSPORT, &variant, rate, 1.0), run).gated(
             Limit::Within(MEASURED_BAND.0 * expected, MEASURED_BAND.1 * expected),
-            "90 % of Meyer-Peter & Müller's runs from τ* = 0.1 on lie inside; no parameter is fitted",
+            "range of 90 % of Meyer-Peter & Müller's runs with τ* ≥ 0.1; no parameter is fitted",
         ));
     }
     let (within, reason) = match dilating {
-        true if run.spacing() < FINE => (0.08, "8 %, half the limit at a spacing of 1 mm"),
-        true => (0.15, "15 %: the moving layer is a few spacings thick, at 2 % slope one or two"),
-        false => (0.1, "10 %: the grains' profile shifted by a third of a 1 mm spacing"),
+        true if run.spacing() < FINE => (0.08, "8 %, half the limit for a 1 mm spacing"),
+        true => (0.15, "15 %: the moving layer is few spacings thick, at 2 % slope one or two"),
+        false => (0.1, "10 %: the grains' profile may be shifted by a third of a 1 mm spacing"),
     };
     metrics.push(
         channel::observed(TRANSPORT_RATIO, &variant, rate, 1.0 / layer.transport())

@@ -104,7 +104,7 @@ fn of_fit(held: &HeldOut) -> Vec<Metric> {
             .against(Some(1.0), formula.name(), formula.confidence())
             .gated(
                 Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1),
-                "scatter of measured rates; yield stress and viscosity are fitted to the two other slopes",
+                "scatter of measured rates; yield stress and viscosity are fitted to the other two slopes",
             )
             .with_snapshot_tolerance(0.05, 0.0),
     ];
@@ -182,7 +182,7 @@ fn forgets_start(records: &[BedLoadRecord], run: &BedLoadFlow) -> Option<Metric>
             .against(Some(0.0), "a steady flow does not depend on its start", Confidence::Exact)
             .gated(
                 Limit::AtMost(FORGOTTEN),
-                "5 % of starts half a stream apart leaves 0.25 u_*, the limit of the velocity profile",
+                "5 %: starts differ by half the velocity, which leaves 0.25 u_*, the limit of the profile",
             )
             .with_snapshot_tolerance(0.02, 0.005),
     )
@@ -233,7 +233,7 @@ fn grains(run: &BedLoadFlow, data: &BedLoadObservation, judged: bool) -> Vec<Met
         let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
         channel::observed(quantity, &variant, estimate, 1.0).against(None, source, Confidence::Medium).gated_by(
             judged.then_some(limit),
-            "the paper states only the sign; profiles with too few points for a curvature fail",
+            "the paper states only the curvature's sign; profiles with too few points fail",
         )
     }));
     let drag = data.drag_profile();

@@ -52,7 +52,7 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord) -> V
                 .of_kind(MetricKind::Validation)
                 .gated(
                     Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1),
-                    "scatter of measured rates; yield stress and viscosity are fitted to the two other slopes",
+                    "scatter of measured rates; yield stress and viscosity are fitted to the other two slopes",
                 ),
         );
     }
@@ -83,15 +83,15 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord) -> V
         let ratio = LAYER_SLOPE_RATIO.of(&variant, ratios[0] / ratios[1]).with_snapshot_tolerance(0.1, 0.0);
         metrics.extend([
             stated(ratio, None, "gentler where grains move than above")
-                .gated_by(gate(Limit::AtMost(0.8)), "a fifth gentler than above the bed at rest"),
+                .gated_by(gate(Limit::AtMost(0.8)), "0.8: at least a fifth gentler than over the bed at rest"),
             stated(near, None, "near the bed slower than without moving grains"),
             stated(far, Some(0.0), "above as fast as without moving grains").gated_by(
                 gate(Limit::Within(-0.25, 0.25)),
-                "0.25 u_*, the limit of clear water: 2 % of the depth mean",
+                "0.25 u_*, as for clear water: 2 % of the depth-averaged velocity",
             ),
             stated(relative, None, "near the bed slower than without moving grains, above as fast").gated_by(
                 gate(Limit::AtMost(-0.1)),
-                "0.1 u_* slower near the bed than above, so that a flow slow throughout fails",
+                "0.1 u_* slower near the bed than above; a flow slow at all heights fails",
             ),
         ]);
     }
@@ -133,7 +133,7 @@ pub(super) fn growth(records: &[BedLoadRecord]) -> Option<Metric> {
         .with_snapshot_tolerance(0.05, 0.0)
         .gated(
             Limit::Within(MEASURED_BAND.0 * expected, MEASURED_BAND.1 * expected),
-            "a factor of two about the formula's growth, the scatter of measured rates",
+            "a factor of two about the formula's growth: measured rates scatter by as much",
         );
     Some(metric)
 }

@@ -53,10 +53,7 @@ fn without_coupling((run, record): &HydrostaticRecord, partner: Option<&Hydrosta
         NOISE_WITHOUT_COUPLING
             .of(&variant, noise / mean(&partner.data.series.pressure_noise))
             .against(None, "the same run with the coupling (27)", Confidence::Exact)
-            .gated(
-                Limit::AtLeast(100.0),
-                "two orders of magnitude: the coupling removes the noise, as the paper states",
-            )
+            .gated(Limit::AtLeast(100.0), "a factor of 100: the paper states that the coupling removes the noise")
             .with_snapshot_tolerance(0.3, 0.0)
     });
     [own].into_iter().chain(factor).collect()
@@ -75,7 +72,7 @@ fn at_rest((run, record): &HydrostaticRecord) -> Vec<Metric> {
         PRESSURE_NOISE
             .of(&variant, mean(&series.pressure_noise))
             .exactly(0.0, "smooth pressure")
-            .gated(Limit::AtMost(1e-3), "0.001 ρgH, rms about a local linear fit within 2h")
+            .gated(Limit::AtMost(1e-3), "0.1 % of ρ g H, rms about a local linear fit within 2 h")
             .with_snapshot_tolerance(0.1, 1e-6),
         quantity
             .of(&variant, 100.0 * profile_l2(run, &profile.height, pressure))
