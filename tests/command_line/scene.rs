@@ -440,7 +440,10 @@ fn a_scene_is_drawn_as_it_starts_also_one_that_is_refused() {
     let shown = place.bagnold(&["show", "slope.toml", "--picture", "setup.svg"]).output().expect("started");
     let said = String::from_utf8_lossy(&shown.stdout).into_owned();
     // of 30 by 30 sites those below the line from (0, 0.25) to (0.3, 0.1)
-    assert!(shown.status.success() && said.contains("Of 900 sites that the bodies hold, 360 get particles"), "{said}");
+    assert!(
+        shown.status.success() && said.contains("Of 900 lattice sites inside the bodies, 360 get particles"),
+        "{said}"
+    );
     let picture = std::fs::read_to_string(place.path("setup.svg")).expect("drawn");
     assert!(picture.contains("<svg") && picture.contains("terrain"));
     for (case, file) in [("film", "setup.png"), ("slope.toml", "setup.pdf")] {

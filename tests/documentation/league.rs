@@ -26,7 +26,7 @@ judged as those of Bagnold. `bagnold league` writes the page with all sources;
 
 const VALUES: &str = "
 ✓ passes, ✗ fails, ○ is not judged. The standard deviation is that of Bagnold and of the codes of
-the same law: by so much two methods differ under one law. Behind *grains* stands that of the codes
+the same law; it measures the scatter between methods under one law. *grains*: that of the codes
 of the same grains.
 ";
 
@@ -40,7 +40,7 @@ order. An error of the law or of an operator that no mesh reduces lowers the ord
 ";
 
 const WIDTHS: &str = "
-## Limits beside the scatter of codes
+## Limits compared with the scatter of codes
 
 The table holds gated quantities of at least three codes of one law, Bagnold included. The width is
 half of an interval; for a bound it is the distance from the mean of the codes. A width below one
@@ -49,7 +49,7 @@ standard deviation is narrow, from two on it is wide; its reason is that of the 
 ";
 
 const BLIND: &str = "
-## Collapses predicted before the grains ran
+## Blind predictions of collapses of grains
 
 The friction of discs and spheres was measured on steady slopes and fitted by μ(I). Bagnold
 predicted their collapses from this fit. The seeds of the collapses follow from the digest of the

@@ -251,11 +251,11 @@ impl Baseline {
             let reason = match found {
                 Some(metric) if metric.verdict() != Verdict::Observed => return None,
                 Some(metric) if metric.is_coarser_than_gate() => {
-                    "the spacing moves the value by more than the gate is wide"
+                    "the discretisation error exceeds the width of the limit"
                 }
-                Some(metric) if metric.gate.is_some() => "its reference is not verified",
-                Some(_) => "with these runs and parameters it is observed only",
-                None => "it is no longer measured",
+                Some(metric) if metric.gate.is_some() => "the reference is not verified",
+                Some(_) => "no limit applies to these runs and parameters",
+                None => "the metric is no longer measured",
             };
             let of_run =
                 |metric: &&Metric| key.variant.includes(&metric.variant) || metric.variant.includes(&key.variant);

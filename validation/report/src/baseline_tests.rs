@@ -133,8 +133,8 @@ fn gates_that_are_not_judged_are_named_with_the_reason() {
     assert_eq!(
         lines,
         [
-            "height: with these runs and parameters it is observed only; it still rises",
-            "width: it is no longer measured; it still rises",
+            "height: no limit applies to these runs and parameters; it still rises",
+            "width: the metric is no longer measured; it still rises",
         ]
     );
 }

@@ -63,14 +63,14 @@ fn row(compared: &Comparison<'_>) -> Value {
             (VerdictMark::EXPECTED, "model error", format!("model error of at least {}", unit(own)))
         }
         ModelError::BeyondKnown(own) => (VerdictMark::OBSERVED, "beyond what is known", format!("by {}", unit(own))),
-        ModelError::Unknown => (VerdictMark::OBSERVED, "open", "no uncertainty is known".to_owned()),
+        ModelError::Unknown => (VerdictMark::OBSERVED, "open", "unknown uncertainty".to_owned()),
     };
     let unknown = compared.unknown();
     let lower_bound = if unknown.is_empty() || unknown.len() == 3 {
         String::new()
     } else {
         let symbols: Vec<&str> = unknown.iter().map(|part| part.symbol()).collect();
-        format!("; {} not known", symbols.join(" and "))
+        format!("; {} unknown", symbols.join(" and "))
     };
     let stated = StatedUncertainty::of(compared.case);
     let reason = |part: &ComparisonPart| {
@@ -106,7 +106,7 @@ fn dominant(metric: &Metric) -> String {
         if is_alone {
             own.name().to_owned()
         } else {
-            format!("{} % of its square: {}", two_digits(100.0 * share), own.name())
+            format!("{} % of u_input²: {}", two_digits(100.0 * share), own.name())
         }
     };
     most.map(words).unwrap_or_default()

@@ -36,10 +36,10 @@ impl Grade {
     #[must_use]
     pub fn letter_and_meaning(self) -> (char, &'static str) {
         match self {
-            Self::Measured => ('M', "gates against measurements, published fits or other people's simulations"),
+            Self::Measured => ('M', "gates against measurements, published fits or external simulations"),
             Self::Converging => ('C', "gates on an observed order of convergence"),
             Self::Exact => ('E', "gates against exact solutions"),
-            Self::Statement => ('S', "gates on what a paper states"),
+            Self::Statement => ('S', "gates on statements of a paper"),
             Self::Balance => ('B', "gates on balances of mass, momentum and energy"),
             Self::Baseline => ('R', "regression: compared with the baseline only"),
         }

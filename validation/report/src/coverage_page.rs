@@ -60,7 +60,7 @@ fn option(row: &OptionCoverage) -> Value {
         None => json!({
             "is_open": false,
             "tests": [],
-            "remark": "used by other tiers or cases than those of this report",
+            "remark": "used only by tiers or cases outside this report",
         }),
     };
     let cells: Vec<Value> = row.cases.iter().map(|covered| cell(covered.as_ref())).collect();

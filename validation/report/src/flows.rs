@@ -48,7 +48,7 @@ const FLOWS: [Flow; 4] = [
             metric: "velocity_l2",
             of: |_| true,
             value: |metric| metric.value,
-            says: "Velocity profiles differ by {range} % (L2) from the exact solution of the same law, without an experiment (slopes: {number}).",
+            says: "Velocity profiles differ by {range} % (L2) from the exact solution of the same law; no experiment is involved (slopes: {number}).",
         }],
     },
     Flow {
@@ -67,7 +67,7 @@ const FLOWS: [Flow; 4] = [
                 metric: "experimental_excess",
                 of: |variant| has(variant, "surface=vanishing"),
                 value: |metric| metric.value,
-                says: "Those of the nonlocal law, with a fluidity that vanishes at the surface, stop on slopes {range}° flatter (± {half}°, layers: {number}).",
+                says: "Layers of the nonlocal law, with a fluidity that vanishes at the surface, stop on slopes {range}° flatter (± {half}°, layers: {number}).",
             },
         ],
     },
@@ -100,14 +100,14 @@ const FLOWS: [Flow; 4] = [
                 metric: "transport_ratio",
                 of: |variant| has(variant, "start=rest"),
                 value: |metric| metric.value,
-                says: "A layer of grains that dilate, in one dimension, carries {range} times the rate by the dashed fit of {works} (slopes: {number}).",
+                says: "A 1-D layer of dilating grains transports {range} times the rate by the dashed fit of {works} (slopes: {number}).",
             },
             Claim {
                 case: "bed-load",
                 metric: "transport_ratio",
                 of: |variant| has(variant, "formulation=stabilised"),
                 value: |metric| metric.value,
-                says: "Bingham grains, fitted on other slopes, reach {range} of that rate.",
+                says: "Bingham grains, fitted on other slopes, transport {range} times that rate.",
             },
         ],
     },
@@ -182,8 +182,8 @@ fn span(values: impl Iterator<Item = f64>, digits: fn(f64) -> String) -> Option<
 /// What the `{number}` of `{all}` comparisons with one verdict say of the model, which is off by a `{share}`; in the order of the verdicts.
 const STATEMENTS: [(VerdictMark, &str); 4] = [
     (VerdictMark::PASS, "{number} of {all} comparisons with published results agree within their uncertainty, {share}"),
-    (VerdictMark::EXPECTED, "{number} miss by more than their uncertainty: the model is wrong by at least {share}"),
-    (VerdictMark::OBSERVED, "{number} are undecided: part of their uncertainty is not known"),
+    (VerdictMark::EXPECTED, "{number} differ by more than their uncertainty: the model error is at least {share}"),
+    (VerdictMark::OBSERVED, "{number} are undecided, because part of the uncertainty is unknown"),
     (VerdictMark::OBSERVED, "{number} have no known uncertainty"),
 ];
 
@@ -204,7 +204,7 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport], judgement: &Judg
         }
     }
     if all == 0 {
-        add(VerdictMark::OBSERVED, "no comparison whose uncertainty is known".to_owned());
+        add(VerdictMark::OBSERVED, "no comparison has a known uncertainty".to_owned());
     }
     let is_own = |judged: &JudgedCase<'_>| cases.iter().any(|case| case.name == judged.case.name);
     for (kind, name) in &KINDS[..3] {

@@ -137,7 +137,7 @@ impl<'r> JudgedMetric<'r> {
                 format!("Expected since {}, but worse than its best value {}.", entry.date, best(entry.best_value))
             }
             ListStatus::WithoutGate(_) => {
-                "Listed as an expected failure, but there is no gate: remove the entry.".to_owned()
+                "Listed as an expected failure, but no such gate exists: remove the entry.".to_owned()
             }
         }
     }

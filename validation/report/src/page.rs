@@ -74,7 +74,7 @@ fn banner(judgement: &Judgement<'_>) -> Value {
     };
     let others = [
         (judgement.diverged(), "run", "diverged"),
-        (judgement.contradictions.len(), "result", "at odds with the list of expected failures"),
+        (judgement.contradictions.len(), "result", "in conflict with the list of expected failures"),
     ];
     let others = others.iter().filter(|(number, ..)| *number > 0);
     let others = others.map(|(number, what, how)| format!("; {} {how}", plural(*number, what))).collect::<String>();
@@ -90,9 +90,9 @@ fn banner(judgement: &Judgement<'_>) -> Value {
 fn counts(judgement: &Judgement<'_>) -> Vec<Value> {
     let meanings = [
         "experiments and published fits",
-        "what the two papers say",
+        "statements of the two papers",
         "solutions of the same equations",
-        "nothing lost; mass, momentum and energy add up",
+        "balances of mass, momentum and energy",
     ];
     let count = |((kind, name), meaning): ((MetricKind, &str), &str)| {
         let tally = judgement.tally_of(kind);

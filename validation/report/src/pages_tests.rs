@@ -60,7 +60,7 @@ fn the_first_page_leads_with_what_is_furthest_off_and_the_farthest_moves() {
     let failing = super::failures::of(&judgement.cases);
     let names = |places: &[usize]| places.iter().map(|&place| failing[place]["metric"].clone()).collect::<Vec<_>>();
     assert_eq!(names(&[0, 1, 2]), ["far", "broken", "near"], "twelve times the limit before 1.3 and 1.1 times");
-    assert!(place(&page, "What is weakest") < place(&page, "id=\"moved\""));
+    assert!(place(&page, "Weakest results") < place(&page, "id=\"moved\""));
     let moved: Vec<&str> = page.split("id=\"moved\"").nth(1).expect("a list").split("<b>").skip(1).take(2).collect();
     assert!(moved[0].starts_with("broken") && moved[1].starts_with("thin"), "{moved:?}");
     let thin = overview::gates(&judgement).into_iter().find(|gate| gate["row"]["metric"] == "thin").expect("a gate");
@@ -100,7 +100,7 @@ fn a_reason_stands_on_the_page_of_its_case_only() {
         );
     }
     assert!(!overview.contains("two attempts"));
-    assert!(page.find("What fails") < page.find("two attempts"), "in short first");
+    assert!(page.find("Failures") < page.find("two attempts"), "in short first");
     assert_eq!(page.matches("two attempts").count(), 1);
 }
 
@@ -115,14 +115,14 @@ fn figures_stand_above_tables_and_bookkeeping_is_folded() {
     write(&report, folder.path(), &Drawings::default()).expect("written");
     let page = std::fs::read_to_string(folder.path().join("cases/film/index.html")).expect("a page");
     let at = |part: &str| page.find(part).unwrap_or_else(|| panic!("{part} is not on the page"));
-    let order = ["What fails", "<img", "<table", "id=\"metrics-judged\"", "id=\"metrics-bookkeeping\""].map(at);
+    let order = ["Failures", "<img", "<table", "id=\"metrics-judged\"", "id=\"metrics-bookkeeping\""].map(at);
     assert!(order.is_sorted(), "{order:?}");
     let folds: Vec<&str> = page.split("<details").skip(1).filter_map(|rest| rest.split("</summary>").next()).collect();
     let expected = [
         " open><summary>Judged: 1 row",
         "><summary>Bookkeeping: 1 row",
         "><summary>Observed only: 20 rows",
-        "><summary>as run, in <code>case.toml</code>",
+        "><summary>parameters of these runs, as in <code>case.toml</code>",
     ];
     assert_eq!(folds, expected);
 }

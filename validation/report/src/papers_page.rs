@@ -76,11 +76,11 @@ fn reason(fate: &ElementOutcome<'_>) -> String {
     match (&fate.element.not_covered, fate.status) {
         (Some(reason), _) => reason.clone(),
         (None, Status::NotCovered) => {
-            "a metric or run that shows it is not part of this tier, or not judged".to_owned()
+            "the metric or run for this element is not part of this tier, or not judged".to_owned()
         }
-        _ if !names.is_empty() => format!("it stands with wrong physics as well: {}", names.join(", ")),
-        (None, Status::NotShown) if !fate.falls => "no control makes it fall by a value".to_owned(),
-        (None, Status::NotShown) => "its uncertainty reaches out of what is printed or of the gate".to_owned(),
+        _ if !names.is_empty() => format!("negative controls reproduce this as well: {}", names.join(", ")),
+        (None, Status::NotShown) if !fate.falls => "no negative control makes this element fail".to_owned(),
+        (None, Status::NotShown) => "the uncertainty exceeds the printed range or the limit".to_owned(),
         _ => String::new(),
     }
 }
@@ -107,7 +107,7 @@ fn run(ended: &Ended<'_>) -> Value {
     let Ended { name, run, status } = ended;
     let outcome = match &run.outcome {
         Outcome::Diverged { message, .. } => message.clone(),
-        _ => format!("ran to its end, {}\u{202f}s", four_digits(run.simulated_time)),
+        _ => format!("completed, {}\u{202f}s simulated", four_digits(run.simulated_time)),
     };
     json!({
         "mark": status.map_or(VerdictMark::OBSERVED, mark),

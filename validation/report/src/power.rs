@@ -36,8 +36,8 @@ impl Doubt {
     /// In a few words.
     pub(super) fn words(self) -> &'static str {
         match self {
-            Self::NoControl => "no control makes it fail",
-            Self::Uncertain => "two standard uncertainties exceed the gate's half width",
+            Self::NoControl => "no negative control makes this gate fail",
+            Self::Uncertain => "two standard uncertainties exceed half the width of the limit",
         }
     }
 }
@@ -66,7 +66,7 @@ pub(super) fn table(case: &CaseReport) -> Option<Value> {
             "command": control.command(&case.name),
             "is_solver": control.solver.is_some(),
             "note": match (&trial.tried_at, trial.diverged) {
-                (_, true) => "a run diverged, whose gates show nothing".to_owned(),
+                (_, true) => "a run diverged, so its gates are not judged".to_owned(),
                 (Some(commit), _) => format!("tried at {}", crate::store::provenance::short_commit(commit)),
                 _ => String::new(),
             },

@@ -64,14 +64,14 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> Value {
 /// The interval of a prediction in words.
 fn prediction(found: &PredictionInterval, unit: &str) -> Value {
     let bounds = [found.lower, found.upper].map(|bound| with_unit(bound, unit));
-    let interval = format!("95 % interval {} to {}, by {} comparisons", bounds[0], bounds[1], found.comparisons);
+    let interval = format!("95 % interval {} to {}, from {} comparisons", bounds[0], bounds[1], found.comparisons);
     json!({ "interval": interval, "warnings": found.warnings })
 }
 
 /// Reason of a missing value; else that of the gate, with a remark if the spacing is too coarse for the gate to judge, and the part of a
 /// run that the value leaves out.
 pub(super) fn reason(metric: &Metric) -> Option<String> {
-    let coarse = "not judged, for the spacing moves the value by more than the gate is wide: ";
+    let coarse = "not judged, because the discretisation error exceeds the width of the limit: ";
     let coarse = if metric.is_coarser_than_gate() { coarse } else { "" };
     let gate = metric.gate.as_ref().filter(|_| metric.reason_of_absence().is_none());
     let parts = gate.map(|gate| format!("{coarse}{}", gate.reason)).into_iter().chain(metric.remark.clone());

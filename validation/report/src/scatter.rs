@@ -103,9 +103,9 @@ fn figure(quantity: &QuantityBias) -> Figure {
         panel.points(case, slot, own.iter().map(|of| (of.measured, of.predicted)));
     }
     let number = quantity.found.comparisons;
-    let bands = if model.is_some() { ", with the bands of twice the model's deviation" } else { "" };
+    let bands = if model.is_some() { "; bands: twice the model's standard deviation" } else { "" };
     let caption = format!(
-        "Predictions of {} against their references, {number} comparisons: δ = {}{bands}.",
+        "Predictions of {} against references, {number} comparisons; mean ratio δ = {}{bands}.",
         quantity.quantity,
         two_digits(bias)
     );

@@ -113,7 +113,7 @@ fn a_failing_gate_is_the_first_thing_on_the_page() {
     assert!(page.contains("class=\"banner fail\""));
     let gates = page::gates(&judge(&report)).expect("page");
     assert!(place(&gates, "velocity_l2") < place(&gates, "wall_slip"), "failures come first");
-    assert!(page.contains("Nothing has moved against the baseline"), "there are none");
+    assert!(page.contains("No value has moved against the baseline"), "there are none");
     let line_of = |case: &str| place(&page, &format!("<a href=\"cases/{case}/index.html\">"));
     assert!(line_of("bagnold") < line_of("film"), "so do failing cases");
     assert!(place(&page, "id=\"attention\"") < place(&page, "id=\"cases\""), "what fails stands above the table");

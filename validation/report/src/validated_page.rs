@@ -48,7 +48,7 @@ fn figure(set: &ValidationSet, group: &Group) -> Option<Figure> {
         panel.bands.iter_mut().for_each(|band| band.label.clear());
     }
     let caption = format!(
-        "{}: prediction over measurement with ± u_val, over the numbers of the regime. The band is the 95 % prediction interval.",
+        "{}: ratio of prediction and measurement, with ± u_val, over dimensionless numbers of the flow. Band: 95 % prediction interval.",
         group.name
     );
     (!panels.is_empty()).then(|| Figure::new(&group.name.replace(' ', "-"), &caption, panels))

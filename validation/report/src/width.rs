@@ -33,7 +33,7 @@ pub(super) fn width(metric: &Metric) -> Option<Value> {
         words.push(format!("{} {}: {}", part.origin.name(), unit(part.standard), part.source));
     }
     let of_gate =
-        of_gate.map(|share| format!(", {}\u{202f}% of the gate", two_digits(100.0 * share))).unwrap_or_default();
+        of_gate.map(|share| format!(", {}\u{202f}% of the limit", two_digits(100.0 * share))).unwrap_or_default();
     let names: Vec<&str> = metric.uncertainty.parts().iter().map(|part| part.origin.name()).collect();
     let statement = format!("± {} known{of_gate}: {}", unit(expanded), names.join(", "));
     // the sum in words below the bar, and everything in words, with the source of each part

@@ -97,7 +97,7 @@ fn scaling_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
         let gate = |run: &ColumnFlow<D>| if legend { bands::run_out(run, false) } else { bands::height(run) };
         for (run, _) in records {
             if let Some(((low, high), _)) = gate(run) {
-                let entry = if legend && panel.bands.is_empty() { "where a result must lie" } else { "" };
+                let entry = if legend && panel.bands.is_empty() { "limits of the gates" } else { "" };
                 panel.band(entry, [0.93, 1.07].map(|part| (part * run.initial_height(), low, high)));
             }
         }
@@ -140,15 +140,15 @@ fn scaling_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
         panel("run-out (r∞ − r0)/r0 [-]", &run_out_laws, Collapse::run_out, true),
         panel("final height h∞/r0 [-]", &height_laws, Collapse::final_height, false),
     ];
-    let mut caption = "Run-out and final height over the aspect ratio, with published laws, the scatter of whose points is not stated. \
-                       Open marks fail their gate."
+    let mut caption = "Run-out and final height over the aspect ratio, with published laws, whose sources state no \
+                       scatter. Open marks fail their gate."
         .to_owned();
     if fits > 0 {
-        caption += " Fits: power laws, exponents with 95 % interval.";
+        caption += " Fits: power laws; exponents with 95 % interval.";
     }
     if round {
         let percent = 200.0 * measured.scatter;
-        caption += &format!(" Bars of measured points: twice their scatter, ± {percent:.0} %.");
+        caption += &format!(" Error bars of measured points: twice their scatter, ± {percent:.0} %.");
     }
     Figure::new("scaling", &caption, panels)
 }
@@ -172,8 +172,8 @@ fn deposits<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     }
     Figure::new(
         &of_material("deposits", records),
-        "Thickness of the deposits, volume per bin of 0.1 r0. Run-out is the front at a thickness of 0.02 r0, with what \
-         lies in fewer than four rows of particles as a wedge of its volume.",
+        "Thickness of the deposits (volume per bin of 0.1 r0). The run-out is read at a thickness of 0.02 r0; fewer \
+         than four particle rows at the toe count as a wedge of equal volume.",
         vec![panel],
     )
 }
@@ -198,13 +198,13 @@ fn histories<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     let has_points =
         [&front, &energy].iter().any(|panel| panel.series.iter().any(|series| series.mark == Mark::Points));
     let points = if has_points {
-        "Points: other codes under the same law, with twice their uncertainty."
+        "Points: other codes with the same law; error bars: twice their uncertainty."
     } else {
         "No measured front is available."
     };
     let caption = format!(
-        "Front displacement at a thickness of 0.05 r0 over the aspect ratio, and kinetic energy over the initial potential energy, \
-         in times √(h0/g). {points}"
+        "Front displacement at a thickness of 0.05 r0, divided by the aspect ratio, and kinetic energy, divided by \
+         the initial potential energy, over time in units of √(h0/g). {points}"
     );
     Figure::new(&of_material("histories", records), &caption, vec![front, energy])
 }
@@ -227,10 +227,10 @@ fn view<const D: usize>(run: &ColumnFlow<D>) -> View {
 /// The animation of every run.
 pub(crate) fn animations<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Animation> {
     let moving = |(run, record): &CollapseRecord<D>| {
-        let section = if D == 3 { " The section beside a symmetry plane is shown." } else { "" };
+        let section = if D == 3 { " Shown is the section next to a symmetry plane." } else { "" };
         let caption = format!(
-            "{}: collapse coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front, where it falls below 0.02 r0. \
-             The left half mirrors the simulated right one.{section}",
+            "{}: collapse, coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front (thickness of \
+             0.02 r0). The left half mirrors the simulated right half.{section}",
             label(run)
         );
         animation(&format!("collapse-{}", stem(run)), &caption, &record.data.motion, &view(run))
@@ -247,8 +247,8 @@ fn shown<const D: usize>(run: &ColumnFlow<D>, frames: &[Frame]) -> Option<Figure
         _ => "figure 9",
     };
     let caption = format!(
-        "{}, {}: speed (left) and pressure (right) at the times of the collapse paper's {source}. The left half mirrors the \
-         simulated right one.",
+        "{}, {}: speed (left) and pressure (right) at the times of the collapse paper's {source}. The left half \
+         mirrors the simulated right half.",
         label(run),
         run.made_of().title()
     );
@@ -260,8 +260,8 @@ fn energy_budget<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
         records.iter().map(|(run, record)| (label(run), run.time_scale(), energies(&record.data))).collect();
     energy::figure(
         &of_material("energy-budget", records),
-        "Potential energy released since the start, kinetic energy, and the rest, which friction has dissipated except for \
-         elastic energy of less than a hundredth; all over the potential energy released by the end.",
+        "Released potential energy, kinetic energy, and their difference, which is dissipated except for less than 1 \
+         % of elastic energy. All are relative to the potential energy released by the end.",
         &runs,
     )
 }
@@ -269,8 +269,8 @@ fn energy_budget<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
 fn velocity_profiles<const D: usize>(run: &ColumnFlow<D>, record: &Recorded<Collapse>) -> Option<Figure> {
     let stations = stations(run, record);
     let caption = format!(
-        "{}: horizontal velocity over depth at 1.5 √(h0/g), means over 0.1 r0. Left: linear fit to the flowing layer (above 0.35 \
-         of the largest velocity) with R². Right: exponential fit below it.",
+        "{}: horizontal velocity over the depth at 1.5 √(h0/g), averaged over 0.1 r0. Left: linear fit to the \
+         flowing layer (above 35 % of the largest velocity) with R². Right: exponential fit below this layer.",
         label(run)
     );
     let name = format!("velocity-{}", stem(run));
@@ -284,8 +284,8 @@ fn wedges<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     });
     Figure::new(
         &of_material("wedges", records),
-        "Deposits in the colours of the displacement d since the start; particles that moved by less than a spacing are \
-         grey. Dashed is the initial column, solid the line through the surface of the undisturbed part.",
+        "Deposits coloured by the displacement d since the start; grey particles moved by less than a spacing. \
+         Dashed: initial column. Solid: line through the surface of the undisturbed part.",
         panels.collect(),
     )
     .in_columns(2)
@@ -314,7 +314,7 @@ fn pictures<const D: usize>(run: &ColumnFlow<D>, frames: &[Frame]) -> Figure {
     });
     Figure::new(
         &format!("pictures-{}", stem(run)),
-        &format!("{}: speed (left) and pressure (right) through the collapse and in the deposit.", label(run)),
+        &format!("{}: speed (left) and pressure (right) during the collapse and in the deposit.", label(run)),
         panels.collect(),
     )
     .in_columns(2)

@@ -105,8 +105,8 @@ fn dragged_bed(records: &[&Record]) -> Figure {
     }
     Figure::new(
         "dragged-bed",
-        "Velocity over the depth below a dragged plate, on a logarithmic axis, and its difference from the solution without \
-         particles at the particles' pressure, where above a hundredth of the plate's.",
+        "Velocity over the depth below a dragged plate (logarithmic axis) with a finite-volume solution at the same \
+         pressure, and their relative difference where the velocity exceeds 1 % of the plate's velocity.",
         vec![drawn.velocity, drawn.error],
     )
 }
@@ -135,8 +135,8 @@ fn heap(records: &[&Record]) -> Figure {
     }
     Figure::new(
         "heap",
-        "Velocity over the depth of a heap between side walls, on a logarithmic axis, under the nonlocal and the local law, and \
-         its difference from the solutions without particles, above a hundredth of the fastest.",
+        "Velocity over the depth of a heap between side walls (logarithmic axis), nonlocal and local law, with \
+         finite-volume solutions, and their relative difference where the velocity exceeds 1 % of the largest.",
         vec![drawn.velocity, drawn.error],
     )
 }
@@ -170,8 +170,8 @@ fn chute(records: &[&Record]) -> Figure {
     }
     Figure::new(
         "chute",
-        "Velocity in a vertical chute from its walls to its middle, and its lag behind the middle on a logarithmic axis. Under the \
-         local law a plug begins where μ falls to μ_s.",
+        "Velocity in a vertical chute from the wall to the middle, and its difference from the velocity in the \
+         middle on a logarithmic axis. With the local law a plug begins where μ falls to μ_s.",
         vec![velocity, lag],
     )
 }

@@ -59,8 +59,8 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     }
     Figure::new(
         "terminal-velocity",
-        "Mean slip of a single grain, with its standard error, against the root of its balance, for every drag law: one planar \
-         grain (c = ½) and spheres of a very dilute suspension (c = ¾).",
+        "Mean slip velocity of a single grain, with standard error, against the velocity at which drag balances \
+         weight, for every drag law: planar grain (c = ½), spheres in a very dilute suspension (c = ¾).",
         vec![panel],
     )
 }
@@ -92,8 +92,8 @@ fn hindered(records: &[(&SettlingFlow, &SettlingObservation)]) -> Figure {
     sinking.reference("", published(exponent));
     Figure::new(
         "hindered-settling",
-        "Slip of a uniform suspension and its sinking velocity in a vessel: particles (points) and roots of the balance (lines) \
-         for every law. Dashed: Richardson and Zaki (1954), observed only.",
+        "Slip velocity of a uniform suspension and its settling velocity in a vessel: particles (points) and balance \
+         of drag and weight (lines) for every law. Dashed: Richardson and Zaki (1954), not judged.",
         vec![slip, sinking],
     )
 }
@@ -120,8 +120,8 @@ fn beads() -> Figure {
     }
     Figure::new(
         "beads",
-        "Polystyrene beads settling in silicone oil, half of the space filled: measured heights of the upper interface and the \
-         deposit (± half a pixel), and predictions of the drag laws for dense suspensions.",
+        "Polystyrene beads settling in silicone oil at solid fraction 0.5: measured heights of the upper interface \
+         and the deposit (error bars: ± half a pixel), and predictions of drag laws for dense suspensions.",
         vec![panel],
     )
 }

@@ -22,7 +22,7 @@ pub(crate) fn formulas() -> Panel {
     let curve = |formula: TransportFormula| (0..=POINTS).map(shields).map(move |tau| (tau, formula.transport(tau)));
     let most = MEASURED_TRANSPORT.points.iter().map(|(tau, _)| *tau).fold(0.0, f64::max);
     panel.band(
-        &format!("nine tenths of the runs from τ* = 0.1 on: factor {:.2} … {:.2}", MEASURED_BAND.0, MEASURED_BAND.1),
+        &format!("90 % of the runs with τ* ≥ 0.1: factor {:.2} … {:.2}", MEASURED_BAND.0, MEASURED_BAND.1),
         (0..=POINTS)
             .map(shields)
             .filter(|tau| (BAND_FROM..=most).contains(tau))

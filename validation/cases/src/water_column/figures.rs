@@ -30,8 +30,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         fronts_and_heights(records),
         Figure::new(
             "front-and-energy",
-            "Front (a fiftieth of the column's width on the bed) against measured ones, released behind a lifted gate and at once, \
-             and the change of total energy, which may only fall.",
+            "Front position (depth of 1/50 of the column's width) with measurements, for release by a lift gate and \
+             at once, and change of total energy, which must not rise.",
             vec![front, energy],
         ),
     ]
@@ -64,7 +64,7 @@ fn fronts_and_heights(records: &[Record]) -> Figure {
             front.line("", slot + 5, points(&data.front));
         }
         let label = if run.is_gated() {
-            format!("n² = {}, behind a gate", run.aspect_ratio)
+            format!("n² = {}, lift gate", run.aspect_ratio)
         } else if drawn {
             String::new()
         } else {
@@ -75,8 +75,8 @@ fn fronts_and_heights(records: &[Record]) -> Figure {
     }
     Figure::new(
         "front-and-height",
-        "Water columns and several experiments: the front of columns twice as high as wide, and the height at the wall. Bars: \
-         twice the rms difference of fronts; for heights, the last digit.",
+        "Water columns with several experiments: front of columns twice as high as wide, and height at the wall. \
+         Error bars: twice the rms difference of measured fronts; for heights, the last digit.",
         vec![front, height],
     )
 }

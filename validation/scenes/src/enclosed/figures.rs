@@ -84,7 +84,7 @@ fn start<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>) -> (Stri
     let sites = parameters.survey(&Surfaces::of(&parameters.enclosure(), parameters.depth_of_walls()));
     let count = |fate: SiteFate| sites.iter().filter(|(_, other)| *other == fate).count();
     let caption = format!(
-        "Of {} sites that the bodies hold, {} get particles (0), {} are too near to a wall (½), {} are behind one (1).",
+        "Of {} lattice sites inside the bodies, {} get particles (0), {} are too close to a wall (½), {} are behind a wall (1).",
         sites.len(),
         count(SiteFate::Particle),
         count(SiteFate::AtAWall),
@@ -132,7 +132,7 @@ fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &
     let all = panels.len();
     let sheet = |(index, panels): (usize, &[Panel])| {
         let name = if index == 0 { "gauges".to_owned() } else { format!("gauges-{}", index + 1) };
-        let mut caption = "What the gauges of the scene measured.".to_owned();
+        let mut caption = "Measurements of the scene's gauges.".to_owned();
         if all > PANELS {
             let (first, last) = (index * PANELS + 1, index * PANELS + panels.len());
             caption += &format!(" Panels {first} to {last} of {all}; the tables have all.");

@@ -65,8 +65,8 @@ pub(super) fn pictures(parameters: &SpaceFlow, frames: &[Frame]) -> Figure {
         }
         panel
     });
-    let caption = "The material in the colours of its speed, from the side and from above, what is nearer before what is \
-                   farther; dashed the edges of the walls.";
+    let caption = "Material coloured by speed, seen from the side and from above; nearer particles cover farther \
+                   ones. Dashed: edges of the walls.";
     Figure::new("pictures", caption, panels.collect()).in_columns(2)
 }
 

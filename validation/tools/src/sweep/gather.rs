@@ -152,7 +152,7 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&SweepRun, EvaluationRecor
     }
     let pairs = Figure {
         name: format!("pairs-{}", case.replace([' ', '/'], "-")),
-        caption: format!("Metrics of every run over the parameters that were varied, row by row: {}.", rows.join("; ")),
+        caption: format!("Metrics of every run over the varied parameters; rows of panels: {}.", rows.join("; ")),
         columns: varied.len().min(3),
         panels,
     };

@@ -41,7 +41,7 @@ pub(super) fn figure(case: &str, parameters: [&str; 2], surfaces: &[MetricMap]) 
         surfaces.iter().filter(|surface| surface.points.len() > 1).map(|surface| panel(parameters, surface)).collect();
     (!panels.is_empty()).then(|| Figure {
         name: format!("map-{}", case.replace([' ', '/'], "-")),
-        caption: format!("Metrics of every run as colours over {} and {}.", parameters[0], parameters[1]),
+        caption: format!("Metrics of every run, shown as colours, over {} and {}.", parameters[0], parameters[1]),
         columns: panels.len().min(2),
         panels,
     })

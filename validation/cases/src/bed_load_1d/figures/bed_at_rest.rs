@@ -31,8 +31,9 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) ->
     };
     let mut panels: Vec<Panel> = layers.iter().map(panel).collect();
     panels.extend(layers.iter().filter_map(|layer| open_panel(records, layer)));
-    let caption = "Water velocity over moving grains and over the bed at rest, as in the bed-load paper's figures 7 to 9, whose points are \
-                   lost. Below: the difference, with 64 draws of the closures from their published ranges.";
+    let caption = "Water velocity above moving grains and above a bed at rest, as in figures 7 to 9 of the bed-load \
+                   paper (points lost). Below: their difference, with 64 draws of the closures from published \
+                   ranges.";
     Figure::new("with-and-without-motion", caption, panels).in_columns(3)
 }
 
@@ -59,7 +60,7 @@ fn open_panel(records: &[BedLoad1dRecord], &(run, state): &SolvedLayer<'_>) -> O
         let (low, high) = (!values.is_empty()).then(|| nine_tenths(&values))?;
         Some((place(k), low, high))
     });
-    panel.band("nine tenths of the draws", band);
+    panel.band("90 % of the draws", band);
     let paper = record.data.draws.paper.as_ref()?;
     for (_, rest) in on_slope(records, run, |other| other.is_on_slope(BedMotion::AtRest)) {
         let above = (0..state.height.len()).filter(|&k| state.height[k] > 0.0);

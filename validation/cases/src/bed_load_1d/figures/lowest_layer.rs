@@ -31,7 +31,8 @@ pub(super) fn figure(layers: &[SolvedLayer<'_>], speed: f64) -> Option<Figure> {
         panel.line(&entry, slot + 1, points);
         panel.reference("", line);
     }
-    let caption = "Water velocity over the height above the grains at rest. Dashed: power laws with the exponent's standard error. \
-                   Points: sheet flow of Sumer et al. (1996) at a greater Shields number, columns inferred.";
+    let caption = "Water velocity over the height above the grains at rest. Dashed: power laws with the exponent's \
+                   standard error. Points: sheet flow of Sumer et al. (1996) at a larger Shields number; meaning of \
+                   columns inferred.";
     Some(Figure::new("lowest-layer", caption, vec![panel]))
 }

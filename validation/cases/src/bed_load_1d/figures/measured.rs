@@ -58,12 +58,12 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
             panels.push(stress);
         }
     }
-    let mut caption = "Layers beside a grain simulation (Maurin et al.; 6 mm, slope 0.05, τ* 0.6) and a measured sheet flow (Revil-Baudard et \
-        al. 2015; 3 mm, τ* 0.44). The sources state no uncertainty."
+    let mut caption = "1-D layers with a simulation of grains (Maurin et al.; 6 mm, slope 0.05, τ* 0.6) and a \
+        measured sheet flow (Revil-Baudard et al. 2015; 3 mm, τ* 0.44). The sources state no uncertainty."
         .to_owned();
     if let Some(duct) = duct_panel(records) {
         panels.push(duct);
-        caption += " Last: water in a sheet flow three times as strong.";
+        caption += " Last panel: water velocity in a sheet flow at τ* 1.4.";
     }
     (!panels.is_empty()).then(|| Figure::new("others", &caption, panels))
 }

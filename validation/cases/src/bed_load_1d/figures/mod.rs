@@ -75,8 +75,9 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
     }
     Figure::new(
         "profiles",
-        "Steady layers over the height in grain diameters: grain velocity (the bed-load paper's figures 10 and 11), drag (figures \
-         12 and 13), both phases' stresses and the weight above. The paper's curves are lost; the closures are the literature's.",
+        "Steady 1-D layers over the height in grain diameters, with published closures: grain velocity (figures 10 \
+         and 11 of the bed-load paper), drag (figures 12 and 13), stresses of both phases, weight above. The paper's \
+         curves are lost.",
         panels.into(),
     )
     .in_columns(2)
@@ -97,11 +98,11 @@ fn carried(state: &LayerState) -> Vec<f64> {
 fn transport(layers: &[SolvedLayer<'_>]) -> Figure {
     let mut panel = transport_panel::formulas();
     let points = layers.iter().map(|(run, state)| (run.stream().shields_number(), state.transport()));
-    panel.points("layer, closures of the literature", 0, points);
+    panel.points("1-D layer, published closures", 0, points);
     Figure::new(
         "transport",
-        "Bed-load transport over the Shields number: the layers with the literature's closures and published \
-         formulas. The band about Wong & Parker's formula is the scatter of the experiments behind it.",
+        "Bed-load transport rate over the Shields number: 1-D layers with published closures, and published \
+         formulas. Band about Wong & Parker's formula: scatter of the experiments behind this formula.",
         vec![panel],
     )
 }

@@ -22,12 +22,12 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
         let (lower, upper) = thresholds_about(size)?.bounds;
         Some((size, lower, upper))
     });
-    curve.band("nine tenths of the thresholds", measured);
+    curve.band("90 % of the thresholds", measured);
     let drawn = |point: &&(f64, f64)| point.0 > points[0] && point.0 < points[points.len() - 1] && point.1 < 0.3;
     let measured: Vec<(f64, f64)> = thresholds.points.iter().filter(drawn).copied().collect();
     let caption = format!(
-        "Left: Shields number at each criterion of motion over D* = d ((s − 1) g/ν²)^⅓, with {} of {} measured thresholds, their \
-         90 % band and Shields' curve. Right: transport over τ* relative to that curve.",
+        "Left: Shields number at the onset by each criterion over D* = d ((s − 1) g/ν²)^⅓, with {} of {} measured \
+         thresholds, their 90 % band and Shields' curve. Right: transport over τ* relative to this curve.",
         measured.len(),
         thresholds.points.len()
     );

@@ -97,8 +97,8 @@ fn water(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
     let panels: Vec<Panel> = slopes.iter().map(panel).collect();
     let errors = panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.error);
     let caption = format!(
-        "Mean water velocity over moving grains and over the bed at rest, as in the paper's figures 7 to 9, whose curves are lost. \
-         Parameters are fitted to Wong & Parker's formula, not the paper's. Errors are at most {:.2} u_*.",
+        "Mean water velocity above moving grains and above a bed at rest, as in figures 7 to 9 of the bed-load paper \
+         (curves lost). Parameters are fitted to Wong & Parker's formula. Statistical errors: at most {:.2} u_*.",
         errors.copied().filter(|error| error.is_finite()).fold(0.0, f64::max),
     );
     Figure::new("water", &caption, panels).in_columns(3)
@@ -127,8 +127,8 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         velocities.push(velocity);
         drags.push(drag);
     }
-    let caption = "Mean grain velocity and drag per volume over the height, as in the paper's figures 10 to 13, whose curves are lost. Parameters \
-                   are fitted to Wong & Parker's formula, not the paper's. Dashed: 1-D layer.";
+    let caption = "Mean grain velocity and drag per volume over the height, as in figures 10 to 13 of the bed-load \
+                   paper (curves lost). Parameters are fitted to Wong & Parker's formula. Dashed: 1-D layer.";
     let columns = slopes.len();
     velocities.extend(drags);
     Figure::new("sediment", caption, velocities).in_columns(columns)
@@ -179,8 +179,8 @@ fn against_layer(stage: BedLoadFormulation, records: &[&BedLoadRecord]) -> Figur
         _ => "(b) the water near the bed and (c) the grains",
     };
     let caption = format!(
-        "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is independent: (a) the \
-         water over the whole depth, {near}."
+        "Volume-fraction formulation, stage `{name}`, against an independent 1-D solution with the same closures: \
+         velocity of (a) the water over the whole depth, {near}."
     );
     Figure::new(&format!("layer-{name}"), &caption, panels)
 }
@@ -223,8 +223,8 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
         panel.points("one particle a grain, fitted to the other slopes", 7, held);
     }
     let caption = format!(
-        "Bed-load transport over the Shields number, with published formulas; the band is the scatter of Wong & Parker's data. \
-         Bars: statistical errors, at most {:.0} %.",
+        "Bed-load transport rate over the Shields number, with published formulas. Band: scatter of the data behind \
+         Wong & Parker's formula. Error bars: statistical, at most {:.0} %.",
         100.0 * largest_error
     );
     Figure::new("transport", &caption, vec![panel])
@@ -243,8 +243,8 @@ fn over_time(records: &[BedLoadRecord]) -> Figure {
     }
     Figure::new(
         "over-time",
-        "Mean water velocity U over the logarithmic law's depth mean U_clear, and transport rate q*, over time. A start is the \
-         initial velocity over that law's, or over the 1-D layer's where grains dilate.",
+        "Mean water velocity U relative to U_clear, the depth average of the logarithmic law, and transport rate q*, \
+         over time. Start: initial velocity relative to this law or, for dilating grains, to the 1-D layer.",
         vec![velocity, rate],
     )
 }

@@ -29,8 +29,8 @@ pub(super) fn profiles(records: &[ClearWaterRecord]) -> Figure {
     }
     Figure::new(
         "velocity-profile",
-        "Left: velocity over u_* against the logarithmic law; z′ is the height above the wall law's origin, z₀ the roughness \
-         length. Right: the difference, with the rms limit from 0.1 to 0.9 h. Bars: statistical errors.",
+        "Left: velocity in units of u_* with the logarithmic law; z′ is the height above the law's origin, z₀ the \
+         roughness length. Right: difference, with the rms limit from 0.1 to 0.9 h. Error bars: statistical errors.",
         vec![profile, residual],
     )
 }

@@ -30,8 +30,8 @@ pub(super) fn pressure(records: &[StillWaterRecord]) -> Figure {
     error.reference("", [(0.0, 0.0), (1.0, 0.0)]);
     Figure::new(
         "pressure",
-        "Pressure of every particle at the end against the hydrostatic one, and the difference in per cent of the \
-         pressure on the floor.",
+        "Pressure of every particle at the end of the run with the hydrostatic pressure, and their difference in % \
+         of the pressure on the floor.",
         vec![profile, error],
     )
 }
@@ -56,9 +56,8 @@ pub(super) fn rest(records: &[StillWaterRecord]) -> Figure {
     speed.reference("limit at the end", [(1e-3, 5e-4), (longest, 5e-4)]);
     Figure::new(
         "rest",
-        "Mean height and root mean square vertical velocity over time. The displaced column first shakes itself into \
-         place and then comes to rest. Without the stabilisation a strongly displaced one blows up within \
-         milliseconds.",
+        "Mean height and rms vertical velocity over time. A column of perturbed particles first rearranges and then \
+         comes to rest. Without the stabilisation, a strongly perturbed column diverges within milliseconds.",
         vec![height, speed],
     )
 }
@@ -81,8 +80,8 @@ pub(super) fn states(records: &[StillWaterRecord]) -> Option<Figure> {
     let ending = if matches!(failed.outcome, Outcome::Diverged { .. }) { ", diverged" } else { "" };
     Some(Figure::new(
         "states",
-        "Particles in the colour of their pressure at the end of the run and, without the stabilisation of the \
-         pressure Poisson equation, at the end of its shorter run.",
+        "Particles coloured by pressure at the end of the run and, without stabilisation of the pressure Poisson \
+         equation, at the end of a shorter run.",
         vec![panel(stabilised, held.frames.last()?, ""), panel(unstabilised, failed.frames.last()?, ending)],
     ))
 }

@@ -13,15 +13,16 @@ pub(super) fn all(records: &[WaterFilmRecord]) -> Vec<Figure> {
             Panel::new("", Axis::logarithmic("rows over the depth [-]"), Axis::logarithmic("relative L2 of u [%]"));
         let own = convergence_errors(records, FilmDepth::Own);
         panel.line_points("against the film of the nominal depth", 0, errors);
-        panel.line_points("against the film of the particles' own depth", 1, own.iter().copied());
+        panel.line_points("against the film of the depth that particles occupy", 1, own.iter().copied());
         panel.order(1, "first order", &own);
         figures.push(Figure::new("convergence", CONVERGENCE, vec![panel]));
     }
     figures
 }
 
-const CONVERGENCE: &str = "Relative L2 error of the velocity profile over the number of rows, on the lattice, against the exact \
-                           film of the nominal depth and of the particles' own depth.";
+const CONVERGENCE: &str = "Relative L2 error of the velocity over the number of particles across the depth \
+                           (lattice), against exact films of the nominal depth and of the depth that the particles \
+                           occupy.";
 
 fn label(run: &WaterFilmFlow) -> String {
     format!("{} rows, {}", run.water.resolution, run.arrangement.name())
@@ -49,8 +50,8 @@ fn profiles(records: &[WaterFilmRecord]) -> Figure {
     }
     Figure::new(
         "velocity-profile",
-        "Velocity over the depth, averaged over the last relaxation times, against the exact film, and the \
-         difference in per cent of the surface velocity with its statistical error from blocks.",
+        "Velocity over the depth, averaged over the last relaxation times, with the exact film, and their difference \
+         in % of the surface velocity. Error bars: statistical errors from block averages.",
         vec![velocity, error],
     )
 }

@@ -33,8 +33,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 pub(super) fn animations(records: &[Record]) -> Vec<Animation> {
     let moving = |(run, record): &Record| {
         let caption = format!(
-            "{}: collapse coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front, where it falls below 0.02 r0. \
-             The gate at 0.2 m is not drawn.",
+            "{}: collapse, coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front (thickness of \
+             0.02 r0). The lift gate at 0.2 m is not drawn.",
             label(run)
         );
         let view = View {
@@ -78,13 +78,13 @@ fn fronts(records: &[Record]) -> Figure {
         }
     }
     let points = if energy.series.iter().any(|series| series.mark == Mark::Points) {
-        " Points are another code under the same law."
+        " Points: another code with the same law."
     } else {
         ""
     };
     let caption = format!(
-        "Front beyond the gate, and kinetic energy, over time. Above the friction angle of 20.9° a run ends when the first grain \
-         nears the end of the channel.{points}"
+        "Front position beyond the lift gate and kinetic energy over time. Above the friction angle of 20.9°, a run \
+         ends when the first grain nears the end of the channel.{points}"
     );
     Figure::new("fronts", &caption, vec![front, energy])
 }
@@ -97,7 +97,8 @@ fn thickness(records: &[Record]) -> Figure {
     let stated = shipped_table("flow-thickness/statements.csv").ok();
     let stated =
         stated.and_then(|table| Some((table.numbers("slope angle").ok()?[0], table.numbers("thickness").ok()?[0])));
-    let mut caption = "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.".to_owned();
+    let mut caption =
+        "Thickness along the slope at successive times (volume per bin of 2 cm). The lift gate is at 0.2 m.".to_owned();
     let mut panels = Vec::new();
     for (run, record) in records {
         let y = Axis::linear("thickness [cm]").between(0.0, (100.0 * high).round() + 1.0);
@@ -116,10 +117,10 @@ fn thickness(records: &[Record]) -> Figure {
             let law = RoughIncline::of_glass_beads().flow_thickness(run.initial_height, angle.to_radians());
             let far = record.data.collapse.front.iter().fold(1.0_f64, |far, front| far.max(*front)) * r;
             let law = 100.0 * law.unwrap_or(f64::NAN);
-            panel.reference("largest thickness by the paper", [(0.0, stated), (far, stated)]);
+            panel.reference("largest thickness in the paper", [(0.0, stated), (far, stated)]);
             panel.reference("by (44), reconstructed", [(0.0, law), (far, law)]);
             caption += &format!(
-                " At {angle}° the paper's largest thickness is about {stated} cm, and (44), reconstructed, gives {law:.2} cm."
+                " At {angle}° the paper's largest thickness is about {stated} cm; its equation (44), reconstructed, gives {law:.2} cm."
             );
         }
         panels.push(panel);
@@ -140,10 +141,7 @@ fn run_outs(records: &[Record]) -> Figure {
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
     let (short, long) = (curve(friction, lower), curve(friction, upper));
     let judged = short.iter().zip(&long).map(|(a, b)| (a.0, (1.0 - MARGIN) * a.1, (1.0 + MARGIN) * b.1));
-    panel.band(
-        &format!("where a run-out must lie: {:.0} % beyond k = {lower} and {upper} by μ_s", 100.0 * MARGIN),
-        judged,
-    );
+    panel.band(&format!("limits: {:.0} % beyond k = {lower} and {upper} with μ_s", 100.0 * MARGIN), judged);
     let experiment = libm::tan(SLOPE_EXPERIMENT.repose_angle.to_radians());
     for (friction, name) in [
         (friction, "tanδ = μ_s of the run".to_owned()),
@@ -161,8 +159,8 @@ fn run_outs(records: &[Record]) -> Figure {
     panel.points("at rest", 0, points);
     Figure::new(
         "run-out",
-        "Run-out from the gate over the slope θ, with the experimental fit h_0 2k/(tanδ − tanθ) of Mangeney et al. 2010 as quoted. \
-         The gate uses tanδ = μ_s.",
+        "Run-out from the lift gate over the slope θ, with the experimental fit h_0 2k/(tanδ − tanθ) of Mangeney et \
+         al. (2010), quoted from a later paper. The limits use tanδ = μ_s.",
         vec![panel],
     )
 }
@@ -176,7 +174,7 @@ const SHEAR_RATES: (f64, f64) = (-1.0, 2.0);
 fn velocities((run, record): &Record) -> Figure {
     let along = |frame: &Frame| -> Vec<f64> { frame.vector("velocity").iter().map(|v| v[0]).collect() };
     let fastest = fields_of(record).flat_map(along).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-    let caption = "velocity along the slope, and shear rate on a logarithmic scale; colours end where the scale does.";
+    let caption = "velocity along the slope, and shear rate on a logarithmic scale; values beyond a scale have the colour of its end.";
     fields("velocities", caption, run, record, |frame| {
         let decades = frame.scalar("shear_rate").iter().map(|rate| libm::log10(rate.max(1e-3))).collect();
         [(along(frame), "u_x [m/s]", (0.0, fastest)), (decades, "log10 |γ̇| [1/s]", SHEAR_RATES)]
@@ -185,8 +183,8 @@ fn velocities((run, record): &Record) -> Figure {
 
 /// The viscosity in time: the paper's figure 5.
 fn viscosities((run, record): &Record) -> Figure {
-    let caption = "apparent viscosity from 0 to 1.5 Pa·s (the paper's scale) and on a logarithmic scale to 10⁴ Pa·s; yellow is the \
-                   upper end or more.";
+    let caption = "apparent viscosity from 0 to 1.5 Pa·s (the paper's scale) and on a logarithmic scale to 10⁴ Pa·s; \
+                   yellow: upper end of the scale or more.";
     fields("fields", caption, run, record, |frame| {
         let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();

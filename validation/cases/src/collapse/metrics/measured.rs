@@ -195,8 +195,8 @@ pub(crate) fn pile_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Opt
         ""
     };
     let caption = format!(
-        "Aluminium bars after their collapse, with measured points (Bui et al. 2008; bars are twice the uncertainty). (a) Surface. \
-         (b) Border of the undisturbed part, displaced by less than a spacing.{altered}"
+        "Deposit of aluminium rods, with measured points (Bui et al. 2008; error bars: twice the uncertainty). (a) \
+         Surface. (b) Border of the undisturbed part, whose particles moved by less than a spacing.{altered}"
     );
     Some(Figure::new("bars-surface", &caption, vec![surface, failure]))
 }

@@ -42,7 +42,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 fn set_up(run: &BagnoldFlow) -> String {
     let exact = run.profile();
     format!(
-        " Layer of {:.0} mm, grains of {:.2} mm, solid fraction {:.2}, {} rows.",
+        " Layer of {:.0} mm, grains of {:.2} mm, solid fraction {:.2}, {} particles over the depth.",
         1e3 * exact.layer_height,
         1e3 * exact.grains.grain_diameter,
         exact.solid_fraction,
@@ -90,8 +90,8 @@ fn transients(records: &[&Record]) -> Figure {
     }
     Figure::new(
         "approach",
-        "Depth mean of the velocity from rest, against the one-dimensional transient solver, which shares nothing with the \
-         particles but the law. The error of the mean is measured at a quarter, half and three quarters of the rise time.",
+        "Depth-averaged velocity of layers started from rest, against an independent 1-D transient solver with the \
+         same law. The error is evaluated at a quarter, half and three quarters of the rise time.",
         vec![panel],
     )
 }
@@ -113,11 +113,11 @@ fn arrest_and_runaway(records: &[&Record]) -> Figure {
         caption += "Below the static friction angle a layer with a steady profile comes to rest. ";
     }
     if has(Fate::Runaway) {
-        caption += "Above the limiting friction angle it accelerates until half the sound speed. ";
+        caption += "Above the limiting friction angle a layer accelerates; its run ends at half the sound speed. ";
     } else {
-        caption += "Layers that run away belong to the paper tier. ";
+        caption += "Only the paper tier runs layers that accelerate without limit. ";
     }
-    caption += "Dashed is the 1-D transient solver.";
+    caption += "Dashed: 1-D transient solver.";
     Figure::new("arrest-and-runaway", &caption, panels.collect())
 }
 
@@ -140,7 +140,7 @@ fn convergence(records: &[Record]) -> Option<Figure> {
     let (from, to) = (first.points.first()?.0, first.points.last()?.0);
     panel.band("gate at 40 rows", [(from, 1e-3, 0.7), (to, 1e-3, 0.7)]);
     let caption =
-        format!("Relative L2 error of the velocity profile at {angle}° with the number of rows over the layer.");
+        format!("Relative L2 error of the velocity profile at {angle}° over the number of particles across the layer.");
     Some(Figure::new("convergence", &caption, vec![panel]))
 }
 

@@ -35,8 +35,9 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         }
         figures.push(Figure::new(
             "convergence",
-            "Relative L2 error of the Newtonian velocity profile against the exact weakly compressible film over the number of \
-             rows: second order on the lattice, with a residual for perturbed particles.",
+            "Relative L2 error of the Newtonian velocity profile against the exact weakly compressible film, over \
+             the number of particles across the depth: second order on a lattice, with a residual for perturbed \
+             particles.",
             vec![panel],
         ));
     }
@@ -89,8 +90,8 @@ fn profiles(records: &[&Record]) -> Figure {
     }
     Figure::new(
         "velocity-profile",
-        "Velocity and shear rate over the depth from displaced particles, against the exact solutions. The plug of \
-         the yield-stress fluids begins where the shear rate falls to zero.",
+        "Velocity and shear rate over the depth, from perturbed particles, with the exact solutions. The plug of \
+         yield-stress fluids begins where the shear rate falls to zero.",
         vec![velocity, rate],
     )
 }

@@ -35,8 +35,8 @@ fn stopping(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
     panel.points("kept flowing", 6, []);
     panel.draw("stopped", Mark::OpenPoints, 6, []);
     let caption = format!(
-        "Layers that stopped (open) or flowed (filled) over slope and thickness: {}. Curves: exact h_stop of each law, and the \
-         experimental fit without a stated uncertainty.",
+        "Layers that stopped (open) or flowed (filled) over slope and thickness: {}. Curves: exact h_stop of each \
+         law, and the fit to experiments, whose uncertainty is not stated.",
         tried.join("; ")
     );
     Figure::new("start-stop", &caption, vec![panel])
@@ -103,8 +103,8 @@ fn flow_rule(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
     panel.points("steady flows", 0, points);
     Figure::new(
         "flow-rule",
-        "Depth mean of the velocity of steady flows over √(gh) against the thickness over h_stop(θ), with (42). That \
-         the points lie on the line follows from (41): it verifies the solver.",
+        "Depth-averaged velocity of steady flows over √(gh) against thickness over h_stop(θ), with equation (42) of \
+         the collapse paper. The law implies this line by (41), so the figure verifies the solver.",
         vec![panel],
     )
 }
@@ -132,7 +132,7 @@ fn froude(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
     {
         let along = |thickness: f64| move |times: f64| coefficient * times * own / thickness;
         let (lower, upper) = (along(thick), along(thin));
-        panel.band("the same at a slope half a degree gentler or steeper", steps().map(|x| (x, lower(x), upper(x))));
+        panel.band("flow rule at a slope half a degree gentler or steeper", steps().map(|x| (x, lower(x), upper(x))));
         let curve = steps().filter_map(|times| {
             let mut flow = first.clone();
             flow.layer.layer_height = times * own;
@@ -151,8 +151,8 @@ fn froude(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
     panel.points("local law, particles", 0, local);
     panel.points("nonlocal law, particles", 1, nonlocal);
     let caption = format!(
-        "Depth-averaged velocity over √(gh) against thickness over the experimental h_stop(θ), for both laws.{steepness} Band: \
-         half a degree of slope. The published points are not available."
+        "Depth-averaged velocity over √(gh) against thickness over the experimental h_stop(θ), for both \
+         laws.{steepness} Band: ± half a degree of slope. The published points are not available."
     );
     Figure::new("froude-number", &caption, vec![panel])
 }

@@ -19,8 +19,8 @@ pub(super) fn figure(outcome: &CalibrationResult) -> Option<Figure> {
             panels.push(pair(outcome, first, second));
         }
     }
-    let caption = "Samples of the posterior on the emulator, with a prior that is flat over the ranges: each parameter and each \
-                   pair.";
+    let caption = "Samples of the posterior on the emulator, for each parameter and each pair of parameters. The \
+                   prior is uniform over the ranges.";
     Some(Figure::new("corner", caption, panels).in_columns(count.clamp(1, 3)))
 }
 

@@ -64,7 +64,7 @@ fn history(outcome: &CalibrationResult) -> Option<Figure> {
         }
         panels.push(panel);
     }
-    let caption = "Every evaluation of the search and, last, of the ends of the intervals.";
+    let caption = "All evaluations of the search, followed by those of the ends of the intervals.";
     Some(Figure::new("history", caption, panels))
 }
 
@@ -116,7 +116,7 @@ fn agreement(name: &str, caption: &str, data: &[DatumComparison]) -> Option<Figu
     };
     let panels: Vec<Panel> = groups.iter().map(titled).collect();
     let mut caption = format!(
-        "{caption} Error bars are one standard uncertainty, bands and bars of the model 95 % of what the posterior predicts."
+        "{caption} Error bars of data: one standard uncertainty. Bands and bars of the model: 95 % interval of the posterior prediction."
     );
     if let Some(first) = tables.first() {
         let middle = if tables.len() > 1 { "…" } else { &first[head..first.len() - tail] };

@@ -12,8 +12,8 @@ pub(super) fn figure(outcome: &CalibrationResult) -> Option<Figure> {
     }
     let pairs = (0..count).flat_map(|first| (first + 1..count).map(move |second| (first, second)));
     let panels: Vec<Panel> = pairs.map(|(first, second)| pair(outcome, first, second)).collect();
-    let caption = "Pairs of parameters along the profiles, on every branch that agrees with the data at 95 %. The rectangle is \
-                   the box of the search.";
+    let caption = "Pairs of parameters along the likelihood profiles, on every branch that agrees with the data at \
+                   95 %. Rectangle: bounds of the search.";
     let columns = panels.len().min(3);
     Some(Figure::new("pairs", caption, panels).in_columns(columns))
 }
