@@ -60,7 +60,7 @@ pub struct Store {
     policy: StorePolicy,
     /// Time between two checkpoints of a run, where the user asks for one.
     checkpoint_interval: Option<Duration>,
-    keeps_ends: bool,
+    pub(crate) keeps_ends: bool,
 }
 
 /// Identifies a run of a case by this version of the sources.
@@ -111,12 +111,6 @@ impl Store {
     #[must_use]
     pub fn with_ends(self) -> Self {
         Self { keeps_ends: true, ..self }
-    }
-
-    /// Whether finished runs keep a state near their end.
-    #[must_use]
-    pub fn keeps_ends(&self) -> bool {
-        self.keeps_ends
     }
 
     /// States near the end of the finished runs of a trajectory; emptied if everything is to begin anew.

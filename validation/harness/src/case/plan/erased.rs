@@ -215,7 +215,7 @@ struct CasePlan<C: Case> {
 impl<C: Case> CasePlan<C> {
     /// States near the end of a run, where a store keeps them.
     fn ends(&self, run: usize, store: &Store) -> Option<Checkpoints> {
-        let trajectory = self.slots[run].0.trajectory().filter(|_| store.keeps_ends())?;
+        let trajectory = self.slots[run].0.trajectory().filter(|_| store.keeps_ends)?;
         store.key(C::ORIGIN, C::NAME, &("trajectory", trajectory)).map(|key| store.ends(&key))
     }
 
