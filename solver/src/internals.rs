@@ -48,7 +48,7 @@ pub mod weakly_compressible {
     pub fn viscous_system<const D: usize>(state: &State<D>, time_step: f64) -> ViscousSystem<D> {
         let solve = ViscousSolve { model: &state.model, pairs: &state.pairs, time_step };
         let mut system = ViscousSystem::new();
-        system.resize(&state.particles, state.model.list.region());
+        system.resize(&state.particles, state.model.list.region);
         solve.prepare(&state.particles, &mut system);
         system.copy_stresses(&state.images);
         solve.residual_of_start(&state.particles, &mut system);

@@ -87,7 +87,7 @@ impl IncompressibleSimulation<2> {
         }
         let system = &self.state.system;
         let free_fluid = self.state.phases.fluid.len();
-        let rows = free_fluid..system.beside.len();
+        let rows = free_fluid..system.beside.rows;
         let of_row = |row: usize| {
             let from_fluid = system.beside.row(row).filter(|(partner, _)| (*partner as usize) < free_fluid);
             let force = |sum, (partner, coefficient): (u32, f64)| {

@@ -22,7 +22,7 @@ pub enum KernelShape {
 /// A kernel with its smoothing length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kernel<const D: usize> {
-    shape: KernelShape,
+    pub(crate) shape: KernelShape,
     smoothing_length: f64,
     inverse_smoothing_length: f64,
     value_scale: f64,
@@ -48,12 +48,6 @@ impl<const D: usize> Kernel<D> {
             value_scale,
             gradient_scale: value_scale / (smoothing_length * smoothing_length),
         }
-    }
-
-    /// Shape of the kernel.
-    #[must_use]
-    pub fn shape(&self) -> KernelShape {
-        self.shape
     }
 
     /// Smoothing length h `[m]`.

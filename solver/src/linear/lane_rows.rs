@@ -31,15 +31,7 @@ pub(crate) trait Coefficients: Copy + Send + Sync {
 /// One coefficient an entry, in single precision.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
-pub(crate) struct Single([f32; LANES]);
-
-impl Single {
-    /// Eight coefficients.
-    #[inline(always)]
-    pub(crate) fn of(coefficients: [f32; LANES]) -> Self {
-        Self(coefficients)
-    }
-}
+pub(crate) struct Single(pub(crate) [f32; LANES]);
 
 impl Coefficients for Single {
     type Entry = f64;
@@ -65,7 +57,7 @@ pub(crate) fn single(coefficient: f64) -> f64 {
 /// Columns and coefficients of a square operator, without its diagonal.
 #[derive(Debug)]
 pub(crate) struct LaneRows<C> {
-    rows: usize,
+    pub(crate) rows: usize,
     pub(crate) stride: usize,
     columns: CheckedIndices,
     coefficients: Vec<C>,
@@ -191,11 +183,6 @@ impl<C: Coefficients> LaneRows<C> {
         (&mut self.coefficients, &mut self.width)
     }
 
-    /// Number of rows.
-    pub(crate) fn len(&self) -> usize {
-        self.rows
-    }
-
     /// Columns and coefficients of a row.
     #[inline(always)]
     pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = (u32, C::Entry)> {
@@ -272,7 +259,7 @@ impl<const D: usize> LanePass for Product<'_, D> {
         for (group, out) in self.out.chunks_mut(LANES).enumerate() {
             let first = self.first + group * LANES;
             let mut sums = [V::splat(0.0); D];
-            if first < self.rows.first.len() {
+            if first < self.rows.first.rows {
                 for (columns, coefficients) in self.rows.first.group(first) {
                     add(&mut sums, self.u, &columns, coefficients);
                 }

@@ -451,18 +451,6 @@ impl<V: Lanes> DilationStep<V> {
     }
 }
 
-impl<V: Lanes> StressWork<V> {
-    /// Books as plastic what the mean of the pressures has worked on a growing volume and neither pressure of a mixture has stored: by
-    /// dilation and by the way of the liquid through the pores.
-    #[inline(always)]
-    pub(crate) fn add_pore_flow(&mut self, mass: V, densities: (V, V), pressures: (V, V), stored: (V, V)) {
-        let least = V::splat(f64::MIN_POSITIVE);
-        let volume = (mass / densities.0.max(least), mass / densities.1.max(least));
-        let worked = V::splat(0.5) * (pressures.0 + pressures.1) * (volume.0 - volume.1);
-        self.plastic = self.plastic + worked - (volume.1 * stored.1 - volume.0 * stored.0);
-    }
-}
-
 /// Entries of the ledger that the stress makes, lane by lane.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StressWork<V> {
@@ -501,6 +489,16 @@ impl<V: Lanes> StressWork<V> {
         ledger.correction += sum_of_lanes(self.correction);
         ledger.cut += sum_of_lanes(self.cut);
         ledger.ways += sum_of_lanes(self.ways);
+    }
+
+    /// Books as plastic what the mean of the pressures has worked on a growing volume and neither pressure of a mixture has stored: by
+    /// dilation and by the way of the liquid through the pores.
+    #[inline(always)]
+    pub(crate) fn add_pore_flow(&mut self, mass: V, densities: (V, V), pressures: (V, V), stored: (V, V)) {
+        let least = V::splat(f64::MIN_POSITIVE);
+        let volume = (mass / densities.0.max(least), mass / densities.1.max(least));
+        let worked = V::splat(0.5) * (pressures.0 + pressures.1) * (volume.0 - volume.1);
+        self.plastic = self.plastic + worked - (volume.1 * stored.1 - volume.0 * stored.0);
     }
 }
 

@@ -84,7 +84,7 @@ macro_rules! compiled {
             }
 
             fn compiled_time_step_bounds(&self) -> TimeStepBounds {
-                self.state.time_step_bounds()
+                self.state.bounds_with(self.state.diffusivity)
             }
 
             fn compiled_snapshot(&self) -> Snapshot<$dimensions> {
@@ -206,7 +206,7 @@ impl<const D: usize> Simulation<D> {
         if self.state.feed()? || self.state.displacement > 0.5 * self.state.model.skin() {
             self.state.search_neighbours()?;
         }
-        self.state.advance(self.state.time_step_bounds().step())
+        self.state.advance(self.state.bounds_with(self.state.diffusivity).step())
     }
 
     /// Expected number of steps for `duration` `[s]` with the largest viscosity that the law can show at the

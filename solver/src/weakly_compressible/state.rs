@@ -89,7 +89,7 @@ impl<const D: usize> State<D> {
         particles.artificial_viscosity.fill(model.initial_artificial_viscosity());
         Self {
             particles,
-            images: Images::new(),
+            images: Images::default(),
             wall_displacements: vec![Vector::zeros(); scene.walls.len()],
             walls: scene.walls,
             enclosure,
@@ -136,11 +136,6 @@ impl<const D: usize> State<D> {
         filled.map_err(|crowded| {
             self.divergence(crowded, Quantity::Neighbours { limit: LARGEST_ROW }, LARGEST_ROW as f64)
         })
-    }
-
-    /// The bounds of the next step.
-    pub(crate) fn time_step_bounds(&self) -> TimeStepBounds {
-        self.bounds_with(self.diffusivity)
     }
 
     /// The bounds of a step with a largest diffusivity `[m²/s]`.

@@ -211,7 +211,7 @@ impl<const D: usize> Task<'_, '_, D> {
                 };
                 let coupling =
                     viscous_pair::of_weight(friction.time_step, (volume, volume), V::widen(weight), both).narrow();
-                rows.couplings[group * self.out.stride + k] = Single::of(coupling.to_array());
+                rows.couplings[group * self.out.stride + k] = Single(coupling.to_array());
                 sums.coupled = sums.coupled + V::widen(coupling);
             }
             if other[D].less_mask(zero) != 0 {

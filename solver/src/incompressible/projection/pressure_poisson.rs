@@ -167,8 +167,8 @@ impl<const D: usize> PressurePoisson<D> {
             });
         };
         let pressure = &mut phase.pressure;
-        let outcome = if self.links.len() < LATTICE_ROWS {
-            factors.factorise(self.links.len(), self.links.stride, &CompactRows(self));
+        let outcome = if self.links.rows < LATTICE_ROWS {
+            factors.factorise(self.links.rows, self.links.stride, &CompactRows(self));
             solver.solve(pressure, &right_side, &mut factors, None, criterion, operator)
         } else {
             let inverse = self.diagonal.iter().map(|&diagonal| if diagonal > 0.0 { 1.0 / diagonal } else { 0.0 });

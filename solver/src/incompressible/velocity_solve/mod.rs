@@ -119,7 +119,7 @@ impl Rows for SolvedRows<'_> {
 
     #[inline(always)]
     fn off_diagonal(&self, row: usize) -> impl Iterator<Item = (u32, f64)> {
-        let of_fluid = (row < self.couplings.first.len()).then(|| self.couplings.first.row(row));
+        let of_fluid = (row < self.couplings.first.rows).then(|| self.couplings.first.row(row));
         let all = of_fluid.into_iter().flatten().chain(self.couplings.all.row(row));
         all.map(|(column, coefficient)| (column, -coefficient))
     }

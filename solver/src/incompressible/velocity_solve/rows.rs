@@ -32,12 +32,6 @@ impl Row<'_, '_> {
         self.links.push(partner as u32, coefficient);
         self.coupled += coefficient;
     }
-
-    /// A pair with what stands still.
-    #[inline(always)]
-    fn hold(&mut self, coefficient: f64) {
-        self.held += coefficient;
-    }
 }
 
 /// All that the rows of a step are made of.
@@ -128,9 +122,9 @@ impl<const D: usize> VelocityRows<'_, D> {
         let (fluid, viscosity) = (&self.phases.fluid, &self.viscosities.fluid);
         let Self { scene, time_step, .. } = *self;
         if let Some(drag) = self.columns {
-            row.hold(time_step * drag.hold[a]);
+            row.held += time_step * drag.hold[a];
         }
-        row.hold(boundary::friction(scene.fluid.bed, fluid, a, viscosity[a], time_step));
+        row.held += boundary::friction(scene.fluid.bed, fluid, a, viscosity[a], time_step);
         let (Some(sediment), Some(material)) = (&self.phases.sediment, &scene.sediment) else { return };
         for pair in self.exchange.of_fluid.of(a) {
             let b = pair.source as usize;
@@ -141,7 +135,7 @@ impl<const D: usize> VelocityRows<'_, D> {
             if b < sediment.len() {
                 row.couple(fluid.len() + b, coefficient);
             } else {
-                row.hold(coefficient);
+                row.held += coefficient;
             }
         }
     }
@@ -166,7 +160,7 @@ impl<const D: usize> VelocityRows<'_, D> {
             let both =
                 self.pair_viscosity(material, ends, rate, &separation) + self.added(&sediment.position[a], &separation);
             let moments = 2.0 * sediment.moment[a];
-            row.hold(viscous_pair::coefficient(self.time_step, volumes, moments, gradient, both));
+            row.held += viscous_pair::coefficient(self.time_step, volumes, moments, gradient, both);
         }
         for pair in self.exchange.of_sediment.of(a) {
             let b = pair.source as usize;

@@ -47,7 +47,7 @@ pub struct VerletList {
     extents: Vec<Extent>,
     indices: CheckedIndices,
     /// Chunks set aside for a block of groups.
-    region: usize,
+    pub(crate) region: usize,
 }
 
 impl VerletList {
@@ -94,13 +94,6 @@ impl VerletList {
     #[must_use]
     pub(crate) fn flow_groups(&self) -> usize {
         self.flow.div_ceil(LANES)
-    }
-
-    /// Chunks set aside for every [`BLOCK`] of particles: what belongs to a block's pairs may be kept in slices of
-    /// this length.
-    #[must_use]
-    pub(crate) fn region(&self) -> usize {
-        self.region
     }
 
     /// The neighbours of a real particle without padding.

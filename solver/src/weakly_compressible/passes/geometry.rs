@@ -50,7 +50,7 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     let mut pressure_gradient = std::mem::take(&mut particles.pressure_gradient);
     let mut corrected_stress = std::mem::take(&mut particles.corrected_stress);
     // in single precision none is stored: a chunk a block, so that the loop is the same
-    let region = if in_single { 1 } else { model.list.region() };
+    let region = if in_single { 1 } else { model.list.region };
     let blocks = flow.div_ceil(BLOCK);
     weights.resize(blocks * region, [0.0; LANES]);
     let meets_surface = model.field_meets_surface();
@@ -104,7 +104,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(mut self) {
         let list = &self.model.list;
-        let region_start = self.block * list.region();
+        let region_start = self.block * list.region;
         let count = self.out.corrected_stress.len();
         let meets_surface = self.model.field_meets_surface();
         let mut offset = 0;

@@ -62,7 +62,7 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     });
     let PairData { weights, momentum, .. } = pairs;
     let mut acceleration = std::mem::take(&mut particles.acceleration);
-    let region = model.list.region();
+    let region = model.list.region;
     weights.resize(acceleration.len().div_ceil(BLOCK) * region, [0.0; LANES]);
     let shared = &*particles;
     (acceleration.par_chunks_mut(BLOCK), weights.par_chunks_mut(region)).enumerate().with_min_len(4).for_each(
@@ -103,7 +103,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         let Self { model, particles, records, block, out, weights } = self;
-        let region_start = block * model.list.region();
+        let region_start = block * model.list.region;
         for (offset, out) in out.chunks_mut(LANES).enumerate() {
             let group = model.list.group(block * (BLOCK / LANES) + offset);
             let inputs = Inputs { model, particles, records, group };

@@ -31,7 +31,7 @@ impl ArtificialStress {
     /// For a kernel at a particle spacing Δ `[m]`, in D dimensions.
     #[must_use]
     pub fn new<const D: usize>(kernel: &Kernel<D>, spacing: f64) -> Self {
-        let plane = Kernel::<2>::new(kernel.shape(), kernel.smoothing_length());
+        let plane = Kernel::<2>::new(kernel.shape, kernel.smoothing_length());
         let mut stress = Self { kernel: plane, inverse_value: 1.0 / plane.value_at(spacing), mean: 0.0 };
         let reach = (kernel.support() / spacing) as i32;
         let side = 2 * reach as usize + 1;

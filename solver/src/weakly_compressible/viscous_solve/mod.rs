@@ -78,7 +78,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
         images: &Images<D>,
         system: &mut ViscousSystem<D>,
     ) -> Result<(), NotConverged> {
-        system.resize(particles, self.model.list.region());
+        system.resize(particles, self.model.list.region);
         self.prepare(particles, system);
         system.copy_stresses(images);
         self.residual_of_start(particles, system);

@@ -22,7 +22,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
     pub(crate) fn prepare(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
         (
             system.coefficients.par_chunks_mut(GROUPS),
-            system.pair_vectors.par_chunks_mut(self.model.list.region()),
+            system.pair_vectors.par_chunks_mut(self.model.list.region),
             system.stresses.blocks_mut(particles.flow_count(), BLOCK),
         )
             .enumerate()
@@ -74,7 +74,7 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
     fn run<V: Lanes>(self) {
         let Self { constants, particles, block, coefficients, pair_vectors, stiffnesses } = self;
         let places = const { layout::geometry(D).div_ceil(4) };
-        let region_start = block * constants.model.list.region();
+        let region_start = block * constants.model.list.region;
         let quads = const { (D * D).div_ceil(4) };
         let smoothing_length = constants.model.kernel.smoothing_length();
         let mixing_area = constants.model.mixing_area();

@@ -17,7 +17,7 @@ struct Image<const D: usize> {
 }
 
 /// All images; image k stands at `first + k` in every array.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Images<const D: usize> {
     images: Vec<Image<D>>,
     first: usize,
@@ -113,10 +113,6 @@ fn write<const D: usize>(sources: Sources<'_, D>, first: usize, counts: &[usize]
 }
 
 impl<const D: usize> Images<D> {
-    pub(crate) fn new() -> Self {
-        Self { images: Vec::new(), first: 0, counts: Vec::new() }
-    }
-
     /// Whether all are images of the first `real` particles and stand behind them.
     pub(crate) fn belong_to(&self, real: usize) -> bool {
         self.first == real && self.images.iter().all(|image| (image.source as usize) < real)
@@ -240,7 +236,7 @@ mod tests {
     #[test]
     fn a_corner_of_two_mirrors_has_three_images() {
         let domain = Domain::<2> { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }; 2] };
-        let mut images = Images::new();
+        let mut images = Images::default();
         let mut positions = vec![Vector::<2>::new(0.1, 0.2)];
         images.rebuild(&domain, &positions, 0.5);
         positions.resize(1 + images.len(), Vector::zeros());
@@ -281,7 +277,7 @@ mod tests {
         let axes = [AxisBoundary::Periodic { lower: -1.0, upper: 2.0 }, AxisBoundary::Open];
         let domain = Domain::<2> { axes };
         let mut positions = vec![Vector::<2>::new(-0.9, 5.0), Vector::<2>::new(1.95, 4.0), Vector::<2>::new(0.5, 4.0)];
-        let mut images = Images::new();
+        let mut images = Images::default();
         images.rebuild(&domain, &positions, 0.2);
         positions.resize(3 + images.len(), Vector::zeros());
         images.copy_positions(&mut positions);
