@@ -179,7 +179,7 @@ fn deposits<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
 }
 
 fn histories<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
-    let mut front = Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("(front − r0)/r0 over a [-]"));
+    let mut front = Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("(front − r0)/(a r0) [-]"));
     let mut energy =
         Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("kinetic/initial potential energy [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {

@@ -11,7 +11,7 @@ const LEAST: f64 = 1e-3;
 /// Least velocity whose relative error is drawn, over that of the plate `[-]`: rows that are nearly at rest keep the unevenness of the start.
 const LEAST_OF_ERRORS: f64 = 1e-2;
 
-const NONLOCAL: &str = "nonlocal law, without particles";
+const NONLOCAL: &str = "nonlocal law, 1-D solution";
 const LOCAL: &str = "local law under the same stresses";
 
 fn label(run: &NonlocalShearFlow) -> String {
@@ -125,7 +125,7 @@ fn heap(records: &[&Record]) -> Figure {
             curves.push(run.is_local());
             let points = drawn.shown(solution(run, exact));
             if run.is_local() {
-                drawn.velocity.line("local law, without particles", records.len(), points);
+                drawn.velocity.line("local law, 1-D solution", records.len(), points);
             } else {
                 drawn.velocity.reference(NONLOCAL, points);
             }

@@ -45,7 +45,7 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("root of the balance [m/s]"), Axis::linear("error of the slip [%]"));
     let (low, high) = range(records.iter().map(|&(_, root, _)| root));
     let (low, high) = (low - 0.05 * high, 1.05 * high);
-    panel.band("gate, 1 %", [(low, -1.0, 1.0), (high, -1.0, 1.0)]);
+    panel.band("limit, 1 %", [(low, -1.0, 1.0), (high, -1.0, 1.0)]);
     for (slot, formulation) in FORMULATIONS.into_iter().enumerate() {
         let measured = |&(_, root, data): &(&str, f64, &SettlingObservation)| {
             let (mean, noise) = data.series.mean(&data.series.slip);

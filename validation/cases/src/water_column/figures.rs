@@ -41,7 +41,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 fn fronts_and_heights(records: &[Record]) -> Figure {
     let time = || Axis::linear("t/√(a/(2g)) [-]");
     let mut front = Panel::new("front", time(), Axis::linear("x/a [-]"));
-    let mut height = Panel::new("height at the wall", time(), Axis::linear("height over that at first [-]"));
+    let mut height = Panel::new("height at the wall", time(), Axis::linear("height/initial height [-]"));
     let end = records.iter().flat_map(|(_, record)| record.data.time.last()).fold(0.0_f64, |end, time| end.max(*time));
     let until = |points: &[(f64, f64)]| points.iter().copied().filter(|point| point.0 <= end).collect::<Vec<_>>();
     let spread = spread_of_water_fronts();

@@ -21,11 +21,10 @@ quantities! {
 /// A row of twenty over the width of a column twice as high, of its height `[%]`.
 const ROW: f64 = 2.5;
 
-const READINGS: &str = "readings of the figure agree with the table to 0.03 in x/a (a vector figure to 0.005), taken for the half width of an even \
-                        spread, root mean square over the measured places";
+const READINGS: &str = "readings of the figure agree with the table within 0.03 in x/a (0.005 for a vector figure), \
+                        taken as half width of a uniform distribution; rms over the measured positions";
 
-const SPREAD: &str =
-    "root mean square of what four fronts by other experimenters and readers differ by from the table, relative to it";
+const SPREAD: &str = "rms relative difference of four fronts by other experimenters and readers from the table";
 
 pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     records.iter().flat_map(of_run).collect()
@@ -72,11 +71,11 @@ fn heights(run: &WaterColumnFlow, data: &ColumnObservation, delay: f64) -> Vec<M
         quantity
             .of(&run.variant(), 100.0 * height_error(&samples, measured, delay))
             .against(Some(0.0), &measured.source, measured.confidence)
-            .known_to(Origin::Digitisation, Some(100.0 * HEIGHT_READING), "half of the last digit, evenly spread")
+            .known_to(Origin::Digitisation, Some(100.0 * HEIGHT_READING), "half of the last digit (uniform)")
             .known_to(
                 Origin::Numerical,
                 Some(100.0 / (run.aspect_ratio * run.resolution as f64) / 12.0_f64.sqrt()),
-                "the surface of particles lies within a row: an even spread of that width",
+                "the surface of particles is known within one row (uniform distribution)",
             )
             .with_snapshot_tolerance(0.1, 0.1)
     };

@@ -129,11 +129,11 @@ pub fn metrics(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Vec<
             .with_snapshot_tolerance(0.2, 1e-3),
         WALL_WORK
             .of(variant, share(book.walls))
-            .exactly(0.0, &format!("walls at rest do no work; in per cent {named}"))
+            .exactly(0.0, &format!("walls at rest do no work; in % {named}"))
             .with_snapshot_tolerance(0.2, 0.1),
         CORRECTION_WORK
             .of(variant, share(book.correction))
-            .exactly(0.0, &format!("the same stress does the same work on forces and on strain; in per cent {named}"))
+            .exactly(0.0, &format!("a stress does the same work by forces and by strain; in % {named}"))
             .with_snapshot_tolerance(0.2, 0.1),
     ]
 }

@@ -101,7 +101,7 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
         metrics.push(
             UNSOLVED
                 .of(&variant, share)
-                .exactly(0.0, "an exact solve leaves nothing")
+                .exactly(0.0, "an exact solution has no residual")
                 .gated(
                     Limit::AtMost(MOST_UNSOLVED),
                     "0.5 %, as for the energy balance; a smaller `viscous_tolerance` reduces this",
@@ -198,7 +198,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
     let mut metrics = vec![
         MASS_RESIDUAL
             .of(variant, 100.0 * data.missing_mass / mass)
-            .exactly(0.0, "no particle is lost: it is inside, or has left by an open side")
+            .exactly(0.0, "no particle is lost: each is inside, or has left through an open side")
             .gated(
                 Limit::AtMost(1e-10),
                 "1e-10 %: rounding of a sum over up to millions of particles; thousands leave 1e-12 %",
@@ -206,12 +206,12 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
             .with_snapshot_tolerance(1.0, 1e-9),
         MOMENTUM_RESIDUAL
             .of(variant, 100.0 * data.missing_impulse / data.impulse())
-            .exactly(0.0, "what gravity, walls and sides give is the change of the momentum")
+            .exactly(0.0, "change of momentum = impulses of gravity, walls and sides")
             .gated(Limit::AtMost(2e-5), closed)
             .with_snapshot_tolerance(1.0, 1e-7),
         THROUGH_WALLS
             .of(variant, data.behind as f64)
-            .exactly(0.0, "walls hold")
+            .exactly(0.0, "no particle passes a wall")
             .gated(Limit::AtMost(0.0), "0: walls are impermeable; a particle behind a wall makes the run invalid")
             .with_snapshot_tolerance(0.0, 0.0),
         MASS_LEFT
@@ -223,7 +223,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
         metrics.push(
             FORCE_RESIDUAL
                 .of(variant, 100.0 * data.unassigned_impulse / data.impulse())
-                .exactly(0.0, "the forces on the walls are all that the particles feel of them")
+                .exactly(0.0, "the reported wall forces are all forces of walls on particles")
                 .gated(Limit::AtMost(2e-5), closed)
                 .with_snapshot_tolerance(1.0, 1e-7),
         );
@@ -243,7 +243,7 @@ fn feeds<S: Dimension<D>, const D: usize>(
             mass_fed::<S, D>().of(&own, fed.mass).with_snapshot_tolerance(1e-6, 0.0),
             FEED_ERROR
                 .of(&own, fed.farthest)
-                .exactly(0.0, "the integral of the rate; material comes in row by row")
+                .exactly(0.0, "integral of the prescribed rate; material enters row by row")
                 .gated(Limit::AtMost(FARTHEST), "0.7 spacings: half of one, plus one step's motion at 0.2 c")
                 .with_snapshot_tolerance(0.5, 0.1),
         ]

@@ -50,7 +50,7 @@ fn open_panel(records: &[BedLoad1dRecord], &(run, state): &SolvedLayer<'_>) -> O
         (0..record.data.state.height.len()).filter(|&k| record.data.state.height[k] > 0.0).collect();
     let place = |k: usize| record.data.state.height[k] / stream.grain_diameter;
     let mut panel = Panel::new(
-        &format!("{}, moving less at rest", percent(stream.slope)),
+        &format!("{}, moving minus at rest", percent(stream.slope)),
         Axis::logarithmic("z/d [-]").between(0.02, 12.0),
         Axis::linear("difference of u_f, over u_* [-]"),
     );

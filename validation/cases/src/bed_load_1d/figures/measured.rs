@@ -32,12 +32,12 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
         let mut velocity = Panel::new("", Axis::linear("velocity [m/s]"), height());
         let mut stress = Panel::new("", Axis::linear("water's stress over that on the bed [-]"), height());
         fraction.points("theirs", 0, inside(&theirs.solid_fraction, 1.0));
-        velocity.points("grains, theirs", 0, inside(&theirs.grain_velocity, 1.0));
+        velocity.points("grains, published", 0, inside(&theirs.grain_velocity, 1.0));
         if !theirs.fluid_velocity.is_empty() {
-            velocity.points("water, theirs", 1, inside(&theirs.fluid_velocity, 1.0));
+            velocity.points("water, published", 1, inside(&theirs.fluid_velocity, 1.0));
         }
         let square = of.stream().bed_stress() / of.stream().fluid_density;
-        stress.points("theirs, −⟨u'w'⟩/u_*²", 0, inside(&theirs.turbulent_stress, square));
+        stress.points("published, −⟨u'w'⟩/u_*²", 0, inside(&theirs.turbulent_stress, square));
         for (slot, layer) in layers.into_iter().enumerate() {
             let (run, record) = layer;
             let state = &record.data.state;

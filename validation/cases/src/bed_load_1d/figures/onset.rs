@@ -14,7 +14,7 @@ const MEASURED_SLOT: usize = 6;
 /// Onset over the grain size, and the transport about it.
 pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     let mut curve = Panel::new("onset", Axis::logarithmic("D* [-]"), Axis::logarithmic("τ* at the onset [-]"));
-    let mut rates = Panel::new("transport about it", Axis::logarithmic("τ*/τ*_c [-]"), Axis::logarithmic("q* [-]"));
+    let mut rates = Panel::new("transport at onset", Axis::logarithmic("τ*/τ*_c [-]"), Axis::logarithmic("q* [-]"));
     let points: Vec<f64> = (0..=60).map(|k| 8.0 * libm::pow(25.0, f64::from(k) / 60.0)).collect();
     let expectation: Vec<(f64, f64)> = points.iter().map(|&size| (size, critical_shields_number(size))).collect();
     let thresholds = &*MOTION_THRESHOLDS;
@@ -34,7 +34,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     curve.points("measured thresholds", MEASURED_SLOT, measured);
     curve.reference(ONSET_SOURCE, expectation.iter().copied());
     for factor in [ONSET_SCATTER, 1.0 / ONSET_SCATTER] {
-        let label = format!("factor {ONSET_SCATTER} about it");
+        let label = format!("factor {ONSET_SCATTER} about this curve");
         curve.reference(&label, expectation.iter().map(|&(size, tau)| (size, factor * tau)));
     }
     for (slot, (criterion, name)) in CRITERIA.into_iter().enumerate() {

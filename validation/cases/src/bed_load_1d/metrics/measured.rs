@@ -29,7 +29,7 @@ pub(in crate::bed_load_1d) const TRANSPORT_FACTOR: f64 = 1.5;
 const THINNED: f64 = 0.035;
 
 const SCATTER: &str =
-    "an upper bound: distance of their points to the line through their neighbours, which holds the profile's own bend";
+    "upper bound: distance of published points from the line through their neighbours, with the profile's curvature";
 
 /// Root mean square of the layer's values less theirs, at the heights of their points.
 fn difference(height: &[f64], values: &[f64], theirs: &[(f64, f64)]) -> f64 {
@@ -95,7 +95,7 @@ pub(super) fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
             .known_to(
                 Origin::Digitisation,
                 Some(THINNED * record.data.state.transport() / theirs.transport),
-                "the points that are kept integrate to within 6 % of what all of them do, taken for an even spread",
+                "the thinned points integrate to within 6 % of all points, taken as a uniform distribution",
             );
         metrics.push(if run.is_suspended() {
             let reason = "a factor of 1.5, set before the runs; total-load formulas are usually accepted within 2";

@@ -59,7 +59,7 @@ fn beside_measured(
         .known_to(
             Origin::Numerical,
             Some(value * creep),
-            "what half the rate of the regularised yield adds, of about twice as much that no creep would",
+            "change with half the regularisation rate of the yield stress; without creep the change is about twice as large",
         )
         .gated(
             Limit::Within(lower / band.median, upper / band.median),

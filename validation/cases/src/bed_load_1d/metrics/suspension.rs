@@ -37,7 +37,7 @@ pub(super) fn with_spread(
     metric.known_to(Origin::Input, Some(spread.standard()), &spread.words()).known_to(
         Origin::Numerical,
         numerical,
-        "a third of the change with cells of twice the height: second order",
+        "a third of the change with cells twice as high (second order)",
     )
 }
 

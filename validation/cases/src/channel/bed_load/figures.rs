@@ -32,7 +32,7 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
 }
 
 /// Name of particles that are a grain each, in every legend.
-const PARTICLES: &str = "one particle a grain";
+const PARTICLES: &str = "one particle per grain";
 /// Name of grains that dilate, in every legend.
 const DILATING: &str = "grains that dilate";
 /// Name of grains of a given solid fraction, in every legend.
@@ -220,7 +220,7 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
         .map(|fit| (fit.shields_number, fit.ratio * TransportFormula::WongParker.transport(fit.shields_number)))
         .collect();
     if !held.is_empty() {
-        panel.points("one particle a grain, fitted to the other slopes", 7, held);
+        panel.points("one particle per grain, fitted to the other slopes", 7, held);
     }
     let caption = format!(
         "Bed-load transport rate over the Shields number, with published formulas. Band: scatter of the data behind \

@@ -71,7 +71,7 @@ fn of_run((run, record): &WaterFilmRecord) -> Vec<Metric> {
         channel::bed_shear(&variant, data, density * gravity * depth * run.slope),
         LONGEST_WAVE
             .of(&variant, data.longest_wave)
-            .exactly(0.0, "nothing tells one place along the film from another")
+            .exactly(0.0, "the film is uniform along the flow")
             .gated_by(
                 (run.arrangement == Arrangement::Lattice).then_some(Limit::AtMost(1e-4)),
                 "1e-4: the velocity solver's residual of 1e-6 leaves 1e-5; a perturbed lattice leaves 4e-3",

@@ -7,8 +7,8 @@ use crate::metric::{Metric, Origin};
 use crate::reference::collapse::{ALUMINIUM_BAR_PILE, MeasuredPile};
 use crate::statistics::common_slope;
 
-const RATE: &str = "friction at a rate (distance to the pile whose friction rises with the rate as that of Lagrée's grains, over √3: that of the bars was not measured)";
-const FRICTION: &str = "meaning of the friction angle (distance to the pile whose friction is the sine of the measured angle instead of the tangent, over √3)";
+const RATE: &str = "rate dependence of friction, not measured for the rods (difference from a pile with the rate dependence of Lagrée's grains, over √3)";
+const FRICTION: &str = "meaning of the friction angle (difference from a pile with the sine instead of the tangent of the measured angle, over √3)";
 
 /// The measured pile that a column is, if it is one.
 pub(crate) fn pile_of<const D: usize>(run: &ColumnFlow<D>) -> Option<&'static MeasuredPile> {

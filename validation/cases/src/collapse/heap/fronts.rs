@@ -54,12 +54,12 @@ pub(crate) fn with_resolution(metric: Metric, study: Option<f64>, row: Option<f6
         Some(relative) => metric.known_to(
             Origin::Numerical,
             Some(relative * scale),
-            "half of the 95 % interval about what this column's study of the resolution approaches",
+            "half of the 95 % interval of the extrapolated value of this column's resolution study",
         ),
         None => metric.known_to(
             Origin::Numerical,
             row,
-            "thickness at the toe known to two fifths of a row, over the toe's slope: what columns of 20 to 80 particles over r_0 are off by",
+            "thickness at the toe known within 0.4 particle rows, over the toe's slope: error of columns with 20 to 80 particles over r_0",
         ),
     }
 }

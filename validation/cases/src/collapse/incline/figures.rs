@@ -55,13 +55,13 @@ fn stem(run: &SlopeFlow) -> String {
 }
 
 fn label(run: &SlopeFlow) -> String {
-    let gate = if run.gate_speed > 0.0 { format!("gate {} m/s", run.gate_speed) } else { "no gate".to_owned() };
+    let gate = if run.gate_speed > 0.0 { format!("lift gate {} m/s", run.gate_speed) } else { "no gate".to_owned() };
     let law = if run.is_regularised() { ", regularised" } else { "" };
     format!("{}°, {gate}{law}", run.slope_angle)
 }
 
 fn fronts(records: &[Record]) -> Figure {
-    let mut front = Panel::new("", Axis::linear("t [s]"), Axis::linear("front − gate [m]"));
+    let mut front = Panel::new("", Axis::linear("t [s]"), Axis::linear("front − lift gate [m]"));
     let mut energy = Panel::new("", Axis::linear("t [s]"), Axis::linear("kinetic energy [J/m]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data.collapse;
@@ -130,7 +130,7 @@ fn thickness(records: &[Record]) -> Figure {
 
 /// Final run-out over the slope, with the band of the experiments' fit.
 fn run_outs(records: &[Record]) -> Figure {
-    let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("run-out from the gate [m]"));
+    let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("run-out from the lift gate [m]"));
     let Some((first, _)) = records.first() else { unreachable!("figures are drawn of records") };
     let friction = first.material.contact_friction();
     let curve = |friction: f64, k: f64| -> Vec<(f64, f64)> {

@@ -27,7 +27,7 @@ const FEWEST: usize = 3;
 
 const READING: &str =
     "scatter of the points of the surface about the line through their neighbours, at the toe over its slope";
-const AREA: &str = "the area under the points is that much larger than the pile's: heights as a whole are off by it";
+const AREA: &str = "the area under the measured points exceeds the area of the pile by this share";
 
 /// Thickness of a deposit at a distance from the wall, both over r_0; its innermost bin's at the wall.
 fn thickness(collapse: &Collapse, place: f64) -> f64 {
@@ -87,7 +87,7 @@ pub(super) fn of_pile<const D: usize>(
             .known_to(
                 Origin::Numerical,
                 Some(100.0 * run.spacing() / pile.height / 12.0_f64.sqrt()),
-                "the surface of particles lies within a row: an even spread of that width",
+                "the surface of particles is known within one row (uniform distribution)",
             )
             .gated_by(judged(Limit::AtMost(PILE_SURFACE)), "5 % of the initial height: one particle row of twenty"),
     ];
@@ -129,11 +129,10 @@ pub(super) fn of_round_column<const D: usize>(
             .known_to(
                 Origin::Experiment,
                 Some(measured.scatter),
-                "relative scatter of the measured points about the line through their neighbours, whatever it comes from",
+                "relative scatter of the measured points about the line through their neighbours, from any cause",
             )
             .gated_by(
-                (run.is_resolved() && run.is_published())
-                    .then_some(Limit::Within(1.0 - ROUND, 1.0 + ROUND)),
+                (run.is_resolved() && run.is_published()).then_some(Limit::Within(1.0 - ROUND, 1.0 + ROUND)),
                 "the project's aim: 20 %; the source names no grains, and run-outs of Lube's grains differed by less",
             ),
     )
@@ -153,7 +152,7 @@ pub(super) fn of_round_columns(ratios: &[(f64, Metric)]) -> Option<Metric> {
         MEDIAN_RUN_OUT_RATIO
             .of(&variant, middle)
             .against(Some(1.0), &measured.source, measured.confidence)
-            .known_to(Origin::Experiment, Some(standard), "those of the single ratios, as of a median")
+            .known_to(Origin::Experiment, Some(standard), "from the uncertainties of the single ratios")
             .gated(
                 Limit::Within(1.0 - 0.5 * ROUND, 1.0 + 0.5 * ROUND),
                 "10 %, half the limit of one column: a median over columns reduces the scatter",

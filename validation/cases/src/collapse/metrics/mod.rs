@@ -222,7 +222,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
             .predicted(predicted(run, collapse, &[STOPPING_TIME.name], stopping_time))
             .against(
                 Some(*duration),
-                &format!("about {duration} √(h_0/g), {source}; 99 % of the front's way here"),
+                &format!("about {duration} √(h_0/g), {source}; here the time of 99 % of the front's displacement"),
                 *confidence,
             )
             .gated_by(

@@ -103,7 +103,7 @@ impl<'a> Beside<'a> {
         metric
             .of_kind(MetricKind::Verification)
             .against(Some(mean), &self.codes.source, self.codes.confidence)
-            .known_to(Origin::Numerical, Some(uncertainty), "half of how far the other codes are apart")
+            .known_to(Origin::Numerical, Some(uncertainty), "half of the difference between the other codes")
             .gated(band(mean, share), reason)
     }
 

@@ -25,7 +25,7 @@ fn of_regularised<const D: usize>(
         // what (29) would ask for with the viscosity of (35) at rest under the whole column
         EXPLICIT_STEPS
             .of(&variant, run.explicit_viscous_steps(record.simulated_time))
-            .exactly(record.steps as f64, "the steps that the implicit run took; an explicit one was not made")
+            .exactly(record.steps as f64, "steps of the implicit run; no explicit run was made")
             .with_snapshot_tolerance(0.02, 1.0),
     ];
     // one without a partner is judged by itself

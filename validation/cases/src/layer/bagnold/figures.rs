@@ -138,7 +138,7 @@ fn convergence(records: &[Record]) -> Option<Figure> {
     }
     let first = panel.series.first()?;
     let (from, to) = (first.points.first()?.0, first.points.last()?.0);
-    panel.band("gate at 40 rows", [(from, 1e-3, 0.7), (to, 1e-3, 0.7)]);
+    panel.band("limit with 40 particles", [(from, 1e-3, 0.7), (to, 1e-3, 0.7)]);
     let caption =
         format!("Relative L2 error of the velocity profile at {angle}° over the number of particles across the layer.");
     Some(Figure::new("convergence", &caption, vec![panel]))

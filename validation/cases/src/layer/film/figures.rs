@@ -31,7 +31,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         panel.order(2, "second order", &errors);
         panel.line_points("Newtonian, lattice", 0, errors);
         if displaced.len() >= 2 {
-            panel.line_points("Newtonian, displaced", 1, displaced);
+            panel.line_points("Newtonian, perturbed", 1, displaced);
         }
         figures.push(Figure::new(
             "convergence",

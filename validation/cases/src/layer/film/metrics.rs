@@ -126,7 +126,7 @@ fn skin_difference(records: &[Record]) -> Option<Metric> {
     Some(
         SKIN_DIFFERENCE
             .of(&run.variant(), difference)
-            .exactly(0.0, "the same film with lists that are renewed at other times")
+            .exactly(0.0, "the same film with neighbour lists renewed at other times")
             .gated(Limit::AtMost(1e-4), reason)
             .with_snapshot_tolerance(0.0, 1e-5),
     )

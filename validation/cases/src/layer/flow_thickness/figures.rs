@@ -143,9 +143,9 @@ fn froude(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
         let curve: Vec<(f64, f64)> = curve.collect();
         if let [.., (x, y), (far, end)] = curve[..] {
             let slope = libm::log(end / y) / libm::log(far / x);
-            steepness = format!(" Its curve ends with the power {slope:.1}.");
+            steepness = format!(" The nonlocal curve ends with the power {slope:.1}.");
         }
-        panel.line("nonlocal law, without particles", 1, curve);
+        panel.line("nonlocal law, 1-D solution", 1, curve);
     }
     panel.reference("flow rule of the experiments, β h/h_stop", steps().map(|times| (times, coefficient * times)));
     panel.points("local law, particles", 0, local);

@@ -72,7 +72,7 @@ fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
         .known_to(
             Origin::Numerical,
             bracket.map(|(stops, flows)| (flows - stops) / 12.0_f64.sqrt()),
-            "the angle found is the middle of a bracket: an even spread of its width",
+            "the angle is the middle of a bracket (uniform distribution over its width)",
         )
         .gated_by(
             judged.then_some(Limit::Within(-0.5, 0.5)),
@@ -91,7 +91,7 @@ fn profile(flow: &FlowThicknessFlow, data: &LayerObservation) -> Option<[Metric;
         PROFILE_L2
             .of(&variant, error)
             .with_snapshot_tolerance(2e-2, 1e-3)
-            .exactly(0.0, "steady solution of the nonlocal law in finite volumes over 4000 cells, without particles")
+            .exactly(0.0, "steady 1-D solution of the nonlocal law by finite volumes with 4000 cells")
             .gated(
                 Limit::AtMost(allowed),
                 "1 % with 20 particles, 0.5 % with 40; near h_stop, 0.1 % in friction is 1.2 % in velocity",

@@ -31,7 +31,7 @@ fn label(run: &HydrostaticFlow) -> String {
         Rheology::MuI(_) => "μ(I)",
         other => other.name(),
     };
-    let coupling = if run.is_coupled() { "with (27)" } else { "without (27)" };
+    let coupling = if run.is_coupled() { "with coupling (27)" } else { "without coupling (27)" };
     format!("{material}, {coupling}")
 }
 

@@ -40,7 +40,7 @@ quantities! {
     ),
 }
 
-const EXACT: &str = "steady flow of the nonlocal law in finite volumes over 2000 cells, without particles, at the pressure that the run has";
+const EXACT: &str = "steady 1-D solution of the nonlocal law (2000 finite volumes) at the run's pressure";
 /// Depths below that at which the local law is at rest, between which the tail is measured, in diameters: the whole of it, and its
 /// deeper half.
 const TAIL: (f64, f64) = (0.0, 5.0);

@@ -10,7 +10,7 @@ use bagnold_solver::material::drag::DragLaw;
 pub(in crate::settling) const LAWS: [DragLaw; 4] =
     [DragLaw::WenYu, DragLaw::Ergun, DragLaw::Gidaspow, DragLaw::DiFelice];
 
-const PRINTED: &str = "half of the last printed digit that is no trailing zero, evenly spread; how the sizes of the beads differ is not told";
+const PRINTED: &str = "half of the last printed digit (uniform); the source states no size distribution";
 
 /// Velocity at which a law lets the beads sink `[m/s]`, and its relative uncertainty from the fraction `[-]`.
 pub(in crate::settling) fn sinking(beads: &SettlingBeads, law: DragLaw) -> Option<(f64, f64)> {
@@ -52,7 +52,7 @@ pub(super) fn all() -> Vec<Metric> {
                     "a factor of two: at solid fraction 0.5, drag laws fitted to different experiments differ nearly as much",
                 )
                 .with_snapshot_tolerance(1e-6, 0.0)
-                .known_to(Origin::Numerical, Some(1e-3), "particles meet the root of a law within 0.1 %, by the case's own gates")
+                .known_to(Origin::Numerical, Some(1e-3), "particles reach the velocity of a law within 0.1 %, by other gates of this case")
         };
         Some([
             with_numbers(metric(SINKING_OVER_MEASURED.of(&variant, sunk)))

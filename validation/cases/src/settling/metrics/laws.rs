@@ -33,7 +33,7 @@ pub(super) fn all() -> Vec<Metric> {
     let slips = DragLaw::ALL.into_iter().map(|law| {
         LAW_SLIP_ERROR
             .of(&Variant::of("law", law.name()), largest(slip_deviations(law)))
-            .against(Some(0.0), "the law as printed, solved outside of the program", Confidence::High)
+            .against(Some(0.0), "the printed law, solved outside of this program", Confidence::High)
             .gated(Limit::AtMost(5e-5), "5e-5 %, half of the table's seventh digit; the formula is the same")
             .with_snapshot_tolerance(0.0, 1e-5)
     });

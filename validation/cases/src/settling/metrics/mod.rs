@@ -96,7 +96,7 @@ fn together(flow: &SettlingFlow, variant: &Variant, data: &SettlingObservation) 
     metrics.extend([
         UNEVENNESS
             .of(variant, 100.0 * series.mean(&series.unevenness).0 / slip)
-            .exactly(0.0, "grains of a uniform suspension sink alike")
+            .exactly(0.0, "all grains of a uniform suspension settle at one velocity")
             .with_snapshot_tolerance(0.5, 0.01),
         momentum(variant, data.momentum_error),
     ]);

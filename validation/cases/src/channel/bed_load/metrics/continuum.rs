@@ -30,8 +30,8 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
             .of(&variant, data.channel.momentum.residual())
             .exactly(
                 0.0,
-                "change of momentum = gravity − what held grains and floor take; particles that cross a gradient of φ \
-                 change the share of their mass that counts",
+                "change of momentum = gravity − forces on fixed grains and floor; particles that cross a gradient of \
+                 φ change their counted mass",
             )
             .gated(
                 Limit::Within(-0.01, 0.01),
