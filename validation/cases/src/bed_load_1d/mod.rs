@@ -34,8 +34,7 @@ impl Case for BedLoad1d {
     const NAME: &'static str = "bed-load-1d";
     const AXES_BY_RUNS: bool = true;
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
-    const SUMMARY: &'static str =
-        "bed load over the depth, two phases with closures of the literature, without particles";
+    const SUMMARY: &'static str = "1-D bed load over the depth: two phases with published closures, no particles";
     const DESCRIPTION: &'static str = "\
         Setup. Water flows down a slope and drags the upper grains of a bed along. Both phases are continua over the \
         depth, without particles. Grains have μ(I), a solid fraction that falls with I, and drag; water has a mixing \

@@ -26,7 +26,7 @@ impl Case for Settling {
     const NAME: &'static str = "settling";
     const AXES_BY_RUNS: bool = true;
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
-    const SUMMARY: &'static str = "a grain alone and a uniform suspension sink in a fluid, by every drag law";
+    const SUMMARY: &'static str = "a single grain and a uniform suspension settle in a fluid, with every drag law";
     const DESCRIPTION: &'static str = "\
         Setup, one grain (`paper`, `stabilised`). A grain settles in a doubly periodic box of fluid. An upward body \
         force on the fluid balances the weight of the grain. `paper` uses the operators of the bed-load paper and \
@@ -39,7 +39,7 @@ impl Case for Settling {
         computed from: |⟨u_f⟩ − u_s|, or for pair drag the U with C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|. Momentum of both \
         phases must close to rounding in every step. At φ = 0.002 the suspension must settle like a single sphere. \
         Hindered settling against measurements.\n\n\
-        Observed only. Hindered settling beside Richardson & Zaki. The scatter of grain velocities: two phases with \
+        Observed only. Hindered settling against Richardson & Zaki. The scatter of grain velocities: two phases with \
         one pressure are ill-posed at short waves, and the drag kernel (two or three spacings wide) suppresses this \
         for the duration of the run only.";
     type Flow = SettlingFlow;

@@ -24,15 +24,15 @@ impl Case for WaterColumn {
     const NAME: &'static str = "water-column";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
-        "a column of water that collapses on a bed: no wall may feed energy into it, and its front runs as measured";
+        "a column of water that collapses on a bed: energy balance, and front and height against measurements";
     const DESCRIPTION: &'static str = "\
         Setup. A column of water (1 mPa·s), twice as high as wide, is released beside a symmetry plane by the weakly \
         compressible model, on smooth and on rough beds, with and without tension. Grains would dissipate energy \
         that a wall feeds in; water shows it. Another column, square, stands behind a gate that is lifted at 4.53 \
         m/s. The momentum equation uses the uncorrected divergence, which is adjoint to the continuity equation.\n\n\
-        Judged. The energy ledger closes and total energy does not rise. The front of the gated column against \
+        Judged. The energy balance closes and total energy does not rise. The front of the gated column against \
         Lobovský et al. (2014). The height at the wall against Martin & Moyce (1952).\n\n\
-        Observed only. The front beside that of Martin & Moyce, which starts later. With kernel-corrected forces the \
+        Observed only. The front compared with that of Martin & Moyce, which starts later. With kernel-corrected forces the \
         same column gains 1.4 % of the work of gravity.";
     type Flow = WaterColumnFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;

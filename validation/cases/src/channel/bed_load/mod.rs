@@ -31,7 +31,7 @@ type BedLoadRecord = RecordOf<BedLoadFlow>;
 impl Case for BedLoad {
     const NAME: &'static str = "bed-load";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
-    const SUMMARY: &'static str = "water over a bed that moves: profiles, drag and transport, in three formulations";
+    const SUMMARY: &'static str = "water over a mobile bed: profiles, drag and transport, in three formulations";
     const DESCRIPTION: &'static str = "\
         Setup. Turbulent water flows over a bed of 5 mm grains, in three formulations. `stabilised` has one particle \
         per grain, a yield stress proportional to the weight of the grains, and two parameters that are fitted on \

@@ -23,7 +23,7 @@ impl Case for StillWater {
     const NAME: &'static str = "still-water";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
-        "a displaced column of incompressible water at rest: height, vertical velocity, pressure";
+        "a perturbed column of incompressible water at rest: height, vertical velocity, pressure";
     const DESCRIPTION: &'static str = "\
         Setup. A column of perturbed water particles stands on a closed floor, by the incompressible projection \
         step. A second run leaves out the stabilisation of the pressure Poisson equation: the compact Laplacian of \

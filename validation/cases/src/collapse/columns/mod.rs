@@ -18,7 +18,7 @@ const PLANAR: &str = "\
     than four rows at the toe are replaced by a wedge of the same volume, so that isolated grains do not set the \
     run-out. Height: thickness of the innermost bin.\n\n\
     Judged. Run-out, height, stopping time and exponents against the published laws; fronts and kinetic energy \
-    over time against other codes; the shape of a pile of bars against measurements; balances.\n\n\
+    over time against other codes; the shape of a pile of rods against measurements; balances.\n\n\
     Observed only. The undisturbed core, the failure surface and the profile of the flowing layer. The published \
     laws under any other law than μ(I): their coefficients depend on the material, their exponents much less.";
 const ROUND: &str = "\

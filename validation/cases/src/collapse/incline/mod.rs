@@ -23,10 +23,10 @@ impl Case for InclineCollapse {
     const NAME: &'static str = "incline-collapse";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
-        "grains released by a gate on a slope: front, thickness and final run-out against experiments";
+        "grains released by a lift gate on a slope: front, thickness and final run-out against experiments";
     const DESCRIPTION: &'static str = "\
-        Setup. A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth gate on a \
-        rough slope. The gate is lifted normal to the slope. Front: place where the thickness falls to 0.02 r_0, \
+        Setup. A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth lift gate on a \
+        rough slope. The gate is lifted normal to the slope. Front: point where the thickness falls to 0.02 r_0, \
         defined as in `column-planar`.\n\n\
         Judged. Front and kinetic energy over time against another code; no measured front is available. Below the friction angle, \
         the final run-out against x_f = h_0 2k/(tan δ − tan θ) with k = 0.4 to 0.5 and tan δ = μ_s, the fit of \

@@ -26,14 +26,14 @@ impl Case for FlowThickness {
     const NAME: &'static str = "flow-thickness";
     const AXES_BY_RUNS: bool = true;
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
-    const SUMMARY: &'static str = "the slope at which a layer stops for its thickness, and the flow rule";
+    const SUMMARY: &'static str = "the slope at which a layer of given thickness stops, and the flow rule";
     const DESCRIPTION: &'static str = "\
         Setup. (i) Layers start with the steady profile of a steeper slope, and a bisection finds the slope at which \
         each thickness stops. (ii) Steady layers flow on several slopes.\n\n\
         Judged. (i) The stopping slope under the local law against tan θ = μ_s, and against the measured h_stop(θ) \
         = L (μ_2 − tan θ)/(tan θ − μ_s). The latter fails for thin layers: a local law stops every thickness at one \
         slope. The stopping slope under the nonlocal law against the exact slope at which its first mode grows, and \
-        its steady profile against a solution without particles. (ii) Mean velocity against (42), Ū/√(gh) = β \
+        its steady profile against a 1-D solution. (ii) Mean velocity against (42), Ū/√(gh) = β \
         h/h_stop. With (41) this is an identity of the law: it verifies the solver only.";
     type Flow = FlowThicknessFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
