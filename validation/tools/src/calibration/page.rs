@@ -116,8 +116,8 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
         let scatter = outcome.fit.iter().map(|datum| datum.scatter).fold(0.0, f64::max);
         if scatter > 0.0 {
             lines.push(format!(
-                "Runs scatter: the mean of an evaluation's seeds by up to {} of a datum's standard uncertainty, which counts in \
-                 χ² and in the intervals.",
+                "Results scatter between seeds: means over seeds by up to {} standard uncertainties of a datum, \
+                 which χ² and the intervals include.",
                 four_digits(scatter)
             ));
         }
@@ -131,7 +131,7 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
         }
         if let Some(covered) = outcome.covered {
             lines.push(format!(
-                "{} % of the box lies within a quarter of its ranges from a run that succeeded; the search has not seen the rest.",
+                "{} % of the search box is closer than a quarter of its ranges to a successful run; the rest was not searched.",
                 short_digits(100.0 * covered, 2)
             ));
         }
@@ -163,11 +163,14 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
         };
         let credible: Vec<String> = outcome.parameters.iter().filter_map(credible).collect();
         if !credible.is_empty() {
-            lines.push(format!("Posterior with a prior that is flat over the ranges, 95 %: {}.", credible.join("; ")));
+            lines.push(format!(
+                "Posterior with a uniform prior over the ranges, 95 % intervals: {}.",
+                credible.join("; ")
+            ));
         }
         if let Some(inside) = outcome.truth_inside {
-            let word = if inside { "holds" } else { "does not hold" };
-            lines.push(format!("The joint 95 % region {word} the truth that the synthetic data were made with."));
+            let word = if inside { "contains" } else { "does not contain" };
+            lines.push(format!("The joint 95 % region {word} the true values behind the synthetic data."));
         }
     } else {
         lines

@@ -104,7 +104,7 @@ pub(super) fn junit(judgement: &CodeComparison) -> String {
                 Some(Verdict::Observed) => return None,
                 None => {
                     let mut status = TestCaseStatus::skipped();
-                    status.set_message("not judged: nothing was given");
+                    status.set_message("not judged: no value was submitted");
                     status
                 }
             };
