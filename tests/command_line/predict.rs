@@ -1,6 +1,6 @@
-//! `bagnold predict`: the transport of a flume with its interval.
+//! `bagnold predict`: the transport of a flume and the collapse of a column, with their intervals.
 
-use crate::command_line::program::Place;
+use crate::command_line::program::{Place, document};
 
 const FLUME: &[&str] =
     &["predict", "bed-load", "--grain-diameter", "0.005", "--grain-density", "2600", "--slope", "0.02"];
@@ -41,4 +41,56 @@ fn what_was_compared_with_measurements_is_told_from_what_was_not() {
     let deep = of("0.2", "0.02");
     assert!(deep.contains("outside of what was compared") && deep.contains("fewer than ten runs"), "{deep}");
     assert!(of("0.1", "0.0004").contains("no motion"));
+}
+
+/// Static friction of a law and of its draws.
+const LAW: [f64; 3] = [0.26, 0.24, 0.29];
+const FLOW: &[&str] = &["--set", "half_width=0.08", "--set", "aspect_ratio=1.0", "--set", "solid_fraction=0.76"];
+
+/// Run-out of the column by `bagnold run`.
+fn run_out(place: &Place, static_friction: f64, resolution: usize) -> f64 {
+    let law = format!("material.static_friction={static_friction}");
+    let resolution = format!("resolution={resolution}");
+    let others = "material.limiting_friction=1.1 material.reference_inertia=0.7 material.grain_diameter=0.002 \
+        material.grain_density=2500.0 variants=[]";
+    let own = others.split(' ').chain([law.as_str(), resolution.as_str()]).flat_map(|setting| ["--set", setting]);
+    let own: Vec<&str> = ["run", "column-planar", "--json", "--out", "alone"].into_iter().chain(own).collect();
+    // gates of coarse runs may fail
+    let finished = place.bagnold(&[&own, FLOW].concat()).assert();
+    let metrics = document(&finished).metrics;
+    let own = metrics.iter().find(|metric| metric.name == "run_out" && metric.variant.get("quantity").is_none());
+    own.and_then(|metric| metric.value).expect("a run-out")
+}
+
+#[test]
+fn a_column_is_predicted_from_the_draws_of_a_law_and_judged_by_the_grains() {
+    let place = Place::new();
+    let others = "limiting_friction = 1.1\nreference_inertia = 0.7\ngrain_diameter = 0.002\ngrain_density = 2500.0\n";
+    let draws: String = LAW[1..].iter().map(|draw| format!("\n[[draws]]\nstatic_friction = {draw}\n")).collect();
+    place.file("law.toml", &format!("[material]\nlaw = \"mu-i\"\nstatic_friction = {}\n{others}{draws}", LAW[0]));
+    let predict =
+        ["predict", "column-planar", "--law", "law.toml", "--draws", "2", "--resolution", "5", "--out", "out"];
+    let predict = |more: &[&str]| place.bagnold(&[&predict, FLOW, more].concat()).assert();
+    predict(&[]).code(0);
+    let read = |name: &str| std::fs::read_to_string(place.path("out").join(name)).expect("written");
+    let (plan, prediction) = (read("plan.json"), read("prediction.csv"));
+    let row = prediction.lines().find(|line| line.contains(",run_out,")).expect("a run-out");
+    let numbers: Vec<f64> = row.split(',').filter_map(|cell| cell.parse().ok()).collect();
+    let [value, u_input, u_numerical, lower, upper] = numbers[..] else { panic!("{row}") };
+    assert!((value - run_out(&place, LAW[0], 10)).abs() < 1e-9, "{row}");
+    assert!((u_numerical - (value - run_out(&place, LAW[0], 5)).abs()).abs() < 1e-9, "{row}");
+    let apart = run_out(&place, LAW[1], 5) - run_out(&place, LAW[2], 5);
+    assert!((u_input - apart.abs() / 2.0_f64.sqrt()).abs() < 1e-9 && lower < value && value < upper, "{row}");
+    let judged = |measured: f64| {
+        let text = format!("run_out [-],run_out uncertainty [-]\n{measured},0.01\n");
+        let measured = place.file("own.csv", &text);
+        predict(&["--measured", &measured]).code(0);
+        read("summary.txt")
+    };
+    assert!(judged(value + 0.9 * u_numerical).contains(": validated to ± u_val\n"));
+    assert!(judged(value + 3.0 * (u_numerical + u_input + 0.01)).contains(": model error\n"));
+    assert_eq!((read("plan.json"), read("prediction.csv")), (plan.clone(), prediction));
+    let refused = predict(&["--set", "gravity=3.7"]).code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("holds a prediction of another plan"));
+    assert_eq!(read("plan.json"), plan);
 }

@@ -60,7 +60,7 @@ fn follow(page: &Path, store: &Path) -> usize {
                 std::fs::write(folder.path().join(name), &block.text).expect("writable");
             }
             None if block.info == "sh" => {
-                for line in block.text.lines() {
+                for line in block.text.replace("\\\n", "").lines() {
                     let arguments =
                         line.strip_prefix("bagnold ").unwrap_or_else(|| panic!("{}: {line}", page.display()));
                     // a shell parts the words as the reader's does

@@ -14,7 +14,7 @@ use bagnold_harness::{
 use bagnold_number as number;
 use bagnold_report as report;
 use bagnold_scenes::study;
-use bagnold_tools::{ToolError, calibration, compare, grains, judge, league, sweep};
+use bagnold_tools::{ToolError, calibration, compare, grains, judge, league, prediction, sweep};
 
 #[cfg(test)]
 #[path = "../harness/src/case/pendulum.rs"]

@@ -13,7 +13,7 @@ pub(super) use foreign::{CompareArguments, ExportArguments, GrainsArguments, Jud
 #[cfg(test)]
 pub(super) use new::Named;
 pub(super) use new::{NewArguments, NewCrate};
-pub(super) use predict::{BedLoadArguments, PredictAction, PredictArguments};
+pub(super) use predict::{BedLoadArguments, CollapseArguments, PredictAction, PredictArguments};
 pub(super) use store::{StoreAction, StoreArguments};
 pub(super) use sweep::{Cluster, Engine, SweepAction, SweepArguments};
 pub(super) use work::FigureOptions;
@@ -174,7 +174,7 @@ pub enum Command {
     Report(ReportArguments),
     /// Fit parameters to data and judge them on validation data.
     Calibrate(CalibrateArguments),
-    /// Predict the bed load of a flume, with its interval.
+    /// Predict the bed load of a flume or a collapse, with its interval.
     Predict(PredictArguments),
     /// Simulate cases at many parameter values, locally or on a cluster.
     Sweep(Box<SweepArguments>),

@@ -3,21 +3,18 @@
 use super::arguments::CalibrateArguments;
 use super::count::CountBar;
 use super::error::ProgramError;
-use super::{Exit, Session};
+use super::{Exit, Session, folder_of};
 use crate::calibration::{
     CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, EvaluationCost, calibrate, write,
 };
 use crate::number::aligned_digits;
 use indicatif::HumanDuration;
-use std::path::Path;
 use std::time::Duration;
 
 /// Calibrates, writes the page and prints the parameters.
 pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let mut plan = CalibrationPlan::read(&command.file, session.registry, command.allowance.limits())?;
-    let folder = command.out.clone().unwrap_or_else(|| {
-        Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))
-    });
+    let folder = folder_of(command.out.as_ref(), "reports/calibrations", &command.file);
     let kept = CalibrationFolder::begin(&folder, &command.file, session.registry.origin(), command.resume)?;
     if plan.choices.is_empty() {
         // other starts may take as many evaluations again, and so does a search among runs that scatter

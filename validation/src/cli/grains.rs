@@ -2,18 +2,14 @@
 
 use super::arguments::GrainsArguments;
 use super::error::ProgramError;
-use super::{Exit, Session};
+use super::{Exit, Session, folder_of};
 use crate::grains::{GrainPlan, average, summary, write};
 use crate::output::OutputFolder;
-use std::path::Path;
 
 /// Averages the runs of a plan, writes tables and figures, and prints the points.
 pub(super) fn grains(command: &GrainsArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let plan = GrainPlan::read(&command.file)?;
-    let folder = command
-        .out
-        .clone()
-        .unwrap_or_else(|| Path::new("reports/grains").join(command.file.file_stem().unwrap_or_default()));
+    let folder = folder_of(command.out.as_ref(), "reports/grains", &command.file);
     let runs = average(&plan)?;
     let claimed = OutputFolder::claim(&folder)?;
     write(&plan, &runs, claimed.staging())?;

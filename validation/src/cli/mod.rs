@@ -52,7 +52,7 @@ use clap::error::{ContextKind, ContextValue};
 use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use terminal::{StandardOutput, print, say};
 
@@ -249,6 +249,11 @@ fn perform(command: &Command, session: &mut Session<'_>) -> Result<Exit, Program
             in_pool(command.work.threads, || report::report(command, session.registry, session.quiet, session.output))
         }
     }
+}
+
+/// Folder of a command that works by a file: the given one, else one that is named after the file.
+fn folder_of(given: Option<&PathBuf>, root: &str, file: &Path) -> PathBuf {
+    given.cloned().unwrap_or_else(|| Path::new(root).join(file.file_stem().unwrap_or_default()))
 }
 
 /// Most threads for each processor.

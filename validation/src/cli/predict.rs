@@ -1,9 +1,16 @@
 //! `bagnold predict`: a quantity of a user's own flow with its interval, and whether it lies inside of what was compared with measurements.
 
-use super::arguments::{BedLoadArguments, PredictAction, PredictArguments};
-use super::{Exit, ProgramError, Session};
+use super::arguments::{BedLoadArguments, CollapseArguments, PredictAction, PredictArguments};
+use super::simulation::simulate_announced;
+use super::{Exit, ProgramError, Session, in_pool};
+use crate::league::blind::BlindComparison;
+use crate::metric::{COVERAGE, Metric};
+use crate::output::{FileError, csv_text, write_whole};
+use crate::prediction::PredictionPlan;
 use bagnold_cases::bed_load_1d::{BedLoadFlume, TransportPrediction};
-use bagnold_number::four_digits;
+use bagnold_number::{four_digits, in_unit, two_digits};
+use std::io::Error;
+use std::path::Path;
 
 /// q* from which grains count as moving `[-]`.
 const LEAST_TRANSPORT: f64 = 1e-4;
@@ -13,7 +20,59 @@ const LEAST_TRANSPORT: f64 = 1e-4;
 /// # Errors
 /// A flow that breaks a rule, named by its option.
 pub(super) fn predict(command: &PredictArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
-    let PredictAction::BedLoad(own) = &command.action;
+    match &command.action {
+        PredictAction::BedLoad(own) => bed_load(own, session),
+        PredictAction::ColumnPlanar(own) => in_pool(own.work.threads, || collapse("column-planar", own, session)),
+        PredictAction::InclineCollapse(own) => in_pool(own.work.threads, || collapse("incline-collapse", own, session)),
+    }
+}
+
+/// Predicts a collapse by a fitted law, and judges it where it was measured.
+fn collapse(case: &str, command: &CollapseArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let (case, settings, &CollapseArguments { resolution, draws, .. }) =
+        (case.to_owned(), command.settings.clone(), command);
+    let plan = PredictionPlan { case, settings, resolution, draws, ..PredictionPlan::default() };
+    let (plan, runs) = plan.prepare(&command.law, session.registry, command.allowance.limits())?;
+    let measured = command.measured.as_ref().map(|file| plan.measured(file, session.registry)).transpose()?;
+    let folder = command.out.clone().unwrap_or_else(|| Path::new("reports/predictions").join(&plan.case));
+    let (plan, _lock) = plan.claim(&folder)?;
+    let store = command.work.open_store();
+    let results = simulate_announced("predict", runs, &store, session.quiet)?;
+    let predicted = plan.evaluate(&results, &measured.unwrap_or_default())?;
+    let lines: String = predicted.iter().map(|(own, metric)| lines(own, metric, &plan)).collect();
+    let text = format!("plan {} of {} s after 1970 (UTC)\n{lines}", plan.digest, plan.unix_time);
+    let rows = csv_text(predicted.iter().map(|(own, _)| own)).map_err(Error::from);
+    let written = rows.and_then(|rows| write_whole(&folder.join("prediction.csv"), rows.as_bytes()));
+    let written = written.and_then(|()| write_whole(&folder.join("summary.txt"), text.as_bytes()));
+    written.map_err(|error| FileError::unwritable(&folder, &error))?;
+    session.say(&text);
+    Ok(Exit::Held)
+}
+
+/// A predicted quantity in lines.
+fn lines(own: &BlindComparison, metric: &Metric, plan: &PredictionPlan) -> String {
+    let PredictionPlan { resolution, draws, .. } = plan;
+    let within = |value: f64, u: f64| in_unit(&format!("{} ± {}", four_digits(value), two_digits(u)), &metric.unit);
+    let ends = |low: f64, high: f64| format!("{} … {}", four_digits(low), four_digits(high));
+    let (value, u, fine) = (own.value, own.u_input.hypot(own.u_numerical), 2 * u32::from(*resolution));
+    let [u_input, u_numerical] = [own.u_input, own.u_numerical].map(two_digits);
+    let mut text = format!("{}  {}: u_input {u_input} of {draws} draws, ", own.quantity, within(value, u));
+    text += &format!("u_numerical {u_numerical} of resolutions {resolution} and {fine}\n");
+    text += &format!("  95 % by law and resolution: {}\n", ends(value - COVERAGE * u, value + COVERAGE * u));
+    if let Some(interval) = &metric.prediction {
+        let (both, count) = (ends(interval.lower, interval.upper), interval.comparisons);
+        text += &format!("  95 % by the errors of {count} comparisons of the model: {both}\n");
+        text.extend(interval.warnings.iter().map(|warning| format!("  less certain: {warning}\n")));
+    }
+    if let (Some(error), Some(u_measured)) = (own.error(), own.u_measured) {
+        let (measured, [e, u_val]) = (within(value - error, u_measured), [error, own.uncertainty().0].map(two_digits));
+        text += &format!("  measured {measured}: E = {e}, u_val = {u_val}: {}\n", own.verdict());
+    }
+    text
+}
+
+/// Predicts the bed load of a flume.
+fn bed_load(own: &BedLoadArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let BedLoadArguments { grain_diameter, grain_density, slope, depth, width, draws } = *own;
     let flume = BedLoadFlume { grain_diameter, grain_density, slope, depth, width };
     let prediction = flume.predict(usize::from(draws))?;
@@ -26,55 +85,39 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
     let of = |value: f64| four_digits(value);
     let unit = flume.grain_density * own.stream.transport_unit();
     let within = |(low, high): (f64, f64), unit: f64| format!("{} … {}", of(low * unit), of(high * unit));
-    let mut lines = vec![
-        format!(
-            "bed load      {} kg/(m s); 95 % by closures and the scatter of measurements: {}",
-            of(own.transport * unit),
-            within(own.interval, unit)
-        ),
-        format!("              q* = {} ({})", of(own.transport), within(own.interval, 1.0)),
-    ];
+    let both = |unit: f64| (of(own.transport * unit), within(own.interval, unit));
+    let ((rate, interval), (dimensionless, own_interval)) = (both(unit), both(1.0));
+    let mut text =
+        format!("bed load      {rate} kg/(m s); 95 % by closures and the scatter of measurements: {interval}\n");
+    text += &format!("              q* = {dimensionless} ({own_interval})\n");
     if let Some(width) = flume.width {
-        let unit = unit * width;
-        lines.push(format!(
-            "in the flume  {} kg/s ({}) over {} m",
-            of(own.transport * unit),
-            within(own.interval, unit),
-            of(width)
-        ));
+        let (rate, interval) = both(unit * width);
+        text += &format!("in the flume  {rate} kg/s ({interval}) over {} m\n", of(width));
     }
-    let (steady, all) = own.draws;
-    lines.push(format!(
-        "closures      95 % of {steady} steady layers of {all} draws: {} kg/(m s)",
-        within(own.by_closures, unit)
-    ));
-    let formula = of(own.formula * unit);
-    lines.push(match &own.rates {
-        Some(rates) => format!(
-            "measured      {} kg/(m s), median of {} runs at about this Shields number; formula of Wong & Parker {formula} kg/(m s)",
-            of(rates.median * own.formula * unit),
-            rates.number
-        ),
-        None => format!("measured      fewer than ten runs at about this Shields number, so the scatter is that of all above 0.1; formula of Wong & Parker {formula} kg/(m s)"),
-    });
-    lines.push(format!(
-        "Shields number {} at a mean velocity of {} m/s",
-        of(own.stream.shields_number()),
-        of(own.velocity)
-    ));
+    let ((steady, all), by_closures) = (own.draws, within(own.by_closures, unit));
+    text += &format!("closures      95 % of {steady} steady layers of {all} draws: {by_closures} kg/(m s)\n");
+    let measured = own.rates.as_ref().map_or_else(
+        || "fewer than ten runs at about this Shields number, so the scatter is that of all above 0.1".to_owned(),
+        |rates| {
+            let median = of(rates.median * own.formula * unit);
+            format!("{median} kg/(m s), median of {} runs at about this Shields number", rates.number)
+        },
+    );
+    text += &format!("measured      {measured}; formula of Wong & Parker {} kg/(m s)\n", of(own.formula * unit));
+    let (shields, velocity) = (of(own.stream.shields_number()), of(own.velocity));
+    text += &format!("Shields number {shields} at a mean velocity of {velocity} m/s\n");
     if flume.width.is_some() {
-        lines.push(format!(
-            "side walls    the bed bears {} of ρ g h S (Vanoni & Brooks 1957, smooth walls); if the bed were as smooth, {} (Guo & Julien 2005)",
-            of(own.bed_share),
-            of(own.smooth_bed_share)
-        ));
+        let (bed, smooth) = (of(own.bed_share), of(own.smooth_bed_share));
+        text += &format!("side walls    the bed bears {bed} of ρ g h S (Vanoni & Brooks 1957, smooth walls); ");
+        text += &format!("if the bed were as smooth, {smooth} (Guo & Julien 2005)\n");
     }
     if own.transport < LEAST_TRANSPORT {
-        lines.push(format!("no motion     q* is below {LEAST_TRANSPORT}, where motion begins: a bed at rest creeps by its regularisation"));
+        text += &format!("no motion     q* is below {LEAST_TRANSPORT}, where motion begins: ");
+        text += "a bed at rest creeps by its regularisation\n";
     }
     if own.outside.is_empty() {
-        lines.push("inside of what was compared with measurements".to_owned());
+        text += "inside of what was compared with measurements\n";
     }
-    lines.extend(own.outside.iter().map(|part| format!("outside of what was compared with measurements: {part}")));
-    lines.join("\n") + "\n"
+    text.extend(own.outside.iter().map(|part| format!("outside of what was compared with measurements: {part}\n")));
+    text
 }

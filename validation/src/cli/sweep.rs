@@ -3,7 +3,7 @@
 use super::arguments::{Cluster, Engine, SweepAction, SweepArguments};
 use super::count::CountBar;
 use super::error::ProgramError;
-use super::{Exit, Session};
+use super::{Exit, Session, folder_of};
 use crate::evaluation::EvaluationRecord;
 use crate::sweep::slurm::{self, SlurmRequest};
 use crate::sweep::{SweepFolder, SweepMonitor, SweepPlan, SweepProgress, SweepRun, gather, run_entry, run_locally};
@@ -32,10 +32,7 @@ const ANEW: &str = "to run them again, name another folder with --out";
 
 fn begin(file: &Path, command: &SweepArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let manifest = SweepPlan::read(file)?.manifest(session.registry, command.allowance.limits())?;
-    let folder = command
-        .out
-        .clone()
-        .unwrap_or_else(|| Path::new("reports/sweeps").join(file.file_stem().unwrap_or_else(|| "sweep".as_ref())));
+    let folder = folder_of(command.out.as_ref(), "reports/sweeps", file);
     if command.engine == Engine::Slurm {
         request(&command.cluster, command.work.store.clone()).test()?;
     }

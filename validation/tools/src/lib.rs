@@ -1,4 +1,4 @@
-//! Tools for any case: calibrations, sweeps, judging of external codes and their league, fields of grains, comparisons of folders.
+//! Tools for any case: calibrations, predictions, sweeps, judging of external codes and their league, fields of grains, comparisons of folders.
 
 pub mod calibration;
 pub mod compare;
@@ -6,6 +6,7 @@ mod error;
 pub mod grains;
 pub mod judge;
 pub mod league;
+pub mod prediction;
 pub mod sweep;
 
 pub use error::ToolError;

@@ -1,12 +1,21 @@
 //! Arguments of `bagnold predict`.
 
+use super::{ExecutionOptions, ResourceLimits};
 use clap::{Args, Subcommand};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "Example:
   bagnold predict bed-load --grain-diameter 0.002 --slope 0.015 --depth 0.1 --width 0.3
 
 A steady layer over the depth, with closures of the literature, gives the transport. The interval consists of draws of the closures
 from their ranges and of the scatter of measured runs at about the same Shields number.";
+
+const COLLAPSE_EXAMPLES: &str = "Example:
+  bagnold predict column-planar --law law/law.toml --set half_width=0.08 --set solid_fraction=0.76 --out column
+
+The law holds [material] and [[draws]]. DIR/plan.json receives a digest of law, flow and program before anything runs; the folder
+rejects another plan. u_input is the standard deviation over the draws, u_numerical the difference of both resolutions.
+Measurements stand below `run_out [-],run_out uncertainty [-]`, or repeats below `run_out #1 [-],run_out #2 [-]`.";
 
 /// `bagnold predict`
 #[derive(Debug, Args)]
@@ -21,6 +30,40 @@ pub struct PredictArguments {
 pub enum PredictAction {
     /// Predict the bed load of a steady stream in a flume.
     BedLoad(BedLoadArguments),
+    /// Predict the collapse of a planar column from a fitted law.
+    ColumnPlanar(Box<CollapseArguments>),
+    /// Predict the collapse on a slope from a fitted law.
+    InclineCollapse(Box<CollapseArguments>),
+}
+
+/// `bagnold predict column-planar`
+#[derive(Debug, Args)]
+#[command(after_help = COLLAPSE_EXAMPLES)]
+pub struct CollapseArguments {
+    /// File of the law, as `bagnold calibrate` writes it.
+    #[arg(long, value_name = "FILE.toml")]
+    pub law: PathBuf,
+    /// Change one parameter of the flow; may be repeated.
+    #[arg(long = "set", value_name = "path=value")]
+    pub settings: Vec<String>,
+    /// Particles over the half width, or the height on a slope, of the draws; the value has twice as many.
+    #[arg(long, value_name = "N", default_value = "20", value_parser = clap::value_parser!(u16).range(4..=400))]
+    pub resolution: u16,
+    /// Number of draws of the law.
+    #[arg(long, value_name = "N", default_value = "24", value_parser = clap::value_parser!(u16).range(2..=1000))]
+    pub draws: u16,
+    /// Measured collapse, one row.
+    #[arg(long, value_name = "FILE.csv")]
+    pub measured: Option<PathBuf>,
+    /// Folder to write [default: reports/predictions/CASE].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Resource limits of each run.
+    #[command(flatten)]
+    pub allowance: ResourceLimits,
+    /// Execution options.
+    #[command(flatten)]
+    pub work: ExecutionOptions,
 }
 
 /// `bagnold predict bed-load`

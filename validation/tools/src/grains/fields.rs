@@ -3,6 +3,7 @@
 use super::coarse::{Sums, Window};
 use super::plan::GrainRun;
 use crate::output::Table;
+use crate::statistics::Mean;
 use std::collections::BTreeMap;
 
 /// Quantities of a bin with their units: nine of the flow, of which the last two follow from the momentum balance whatever contacts
@@ -118,11 +119,7 @@ impl GrainRun {
 
 /// Standard uncertainty of the mean of windows.
 fn uncertainty(values: impl Iterator<Item = f64>) -> f64 {
-    let values: Vec<f64> = values.collect();
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-    (squares / (count - 1.0) / count).sqrt()
+    Mean::of(0, &values.collect::<Vec<f64>>()).map_or(f64::NAN, |mean| mean.standard_error)
 }
 
 /// Root mean square velocity along the flow.

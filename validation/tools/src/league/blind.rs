@@ -3,11 +3,12 @@
 //! Errors and uncertainties are those of ASME V&V 20. The seeds of the grains follow from the digest of the prediction, so nobody
 //! can have known the collapses when it was made.
 
+use super::scatter;
 use crate::ToolError;
 use crate::number::{four_digits, two_digits};
 use crate::output::FileError;
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -20,15 +21,18 @@ const PREDICTED_FROM: [&str; 3] = ["friction.csv", "law.csv", "prediction.csv"];
 const SEEDS: (usize, usize) = (4, 3);
 
 /// A predicted quantity with the values of the grains.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct BlindComparison {
     /// `discs` or `spheres`.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub grains: String,
     /// `local` or `nonlocal` friction.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub law: String,
     /// The case, or the slope.
     pub case: String,
     /// Initial height over half width `[-]` of a column.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub aspect_ratio: Option<f64>,
     /// Name of the quantity; lengths are over the half width but for the front's way down an incline `[m]`.
     pub quantity: String,
@@ -45,6 +49,9 @@ pub struct BlindComparison {
     /// Values of the grains, one for each seed.
     #[serde(skip)]
     pub measured: Vec<f64>,
+    /// Standard uncertainty of their mean, where it is stated; else it follows from their scatter.
+    #[serde(skip)]
+    pub u_measured: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -110,9 +117,7 @@ impl BlindComparison {
     /// Standard deviation of the grains between seeds; none of fewer than two.
     #[must_use]
     pub fn scatter(&self) -> Option<f64> {
-        let mean = self.mean()?;
-        let square: f64 = self.measured.iter().map(|value| (value - mean) * (value - mean)).sum();
-        (self.measured.len() > 1).then(|| (square / (self.measured.len() - 1) as f64).sqrt())
+        scatter(self.measured.iter().copied(), 2).map(|(_, scatter)| scatter)
     }
 
     /// Error E: prediction minus mean of the grains.
@@ -124,7 +129,8 @@ impl BlindComparison {
     /// Standard uncertainty of E as far as it is known, and whether all of it is: one seed tells no scatter.
     #[must_use]
     pub fn uncertainty(&self) -> (f64, bool) {
-        let of_mean = self.scatter().map(|scatter| scatter / (self.measured.len() as f64).sqrt());
+        let scatter = || self.scatter().map(|scatter| scatter / (self.measured.len() as f64).sqrt());
+        let of_mean = self.u_measured.or_else(scatter);
         let known = [self.u_input, self.u_numerical, of_mean.unwrap_or(0.0)];
         (known.iter().map(|part| part * part).sum::<f64>().sqrt(), of_mean.is_some())
     }

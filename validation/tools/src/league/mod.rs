@@ -186,7 +186,7 @@ impl LeagueRow {
 }
 
 /// Mean and standard deviation of the finite of some values; none of fewer than `fewest`.
-fn scatter(values: impl Iterator<Item = f64>, fewest: usize) -> Option<(f64, f64)> {
+pub(crate) fn scatter(values: impl Iterator<Item = f64>, fewest: usize) -> Option<(f64, f64)> {
     let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
