@@ -8,6 +8,7 @@ use bagnold_harness::measured::{Measurements, WantedColumns};
 use bagnold_scenes::study::{Suite, is_study};
 use bagnold_tools::calibration::CalibrationPlan;
 use bagnold_tools::judge::CaseSubmissions;
+use bagnold_tools::prediction::PredictionPlan;
 use bagnold_tools::sweep::SweepPlan;
 use bagnold_validation::REGISTRY;
 use std::path::{Path, PathBuf};
@@ -144,6 +145,24 @@ fn a_calibration_plan_is_read_or_refused() {
     read_damaged(&texts("validation/calibrations", "toml"), |_, text| {
         std::fs::write(&path, text).expect("writable");
         let _ = CalibrationPlan::read(&path, *REGISTRY, Limits::default());
+    });
+}
+
+/// A law with its draws, then what was measured of the predicted column.
+#[test]
+fn a_law_and_a_measured_collapse_are_read_or_refused() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let path = folder.path().join("given");
+    let law = shipped("tests/bad", &["toml"]).into_iter().find(|(name, _)| name == "predict-from-a-law.toml");
+    let measured = "run_out [-],run_out uncertainty [-],final_height #1 [-],final_height #2 [-]\n1.9,0.1,0.6,0.7\n";
+    read_damaged(&[law.expect("a law").1, measured.into()], |which, text| {
+        std::fs::write(&path, text).expect("writable");
+        let plan = PredictionPlan { case: "column-planar".to_owned(), resolution: 4, draws: 2, ..Default::default() };
+        let refused = match which {
+            0 => plan.prepare(&path, *REGISTRY, Limits::default()).err(),
+            _ => plan.measured(&path, *REGISTRY).err(),
+        };
+        assert!(refused.is_none_or(|error| error.to_string().contains("given")));
     });
 }
 
