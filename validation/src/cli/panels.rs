@@ -11,7 +11,8 @@ pub(super) fn add_panels(figures: &mut Vec<Figure>, wanted: &[String]) -> Result
     let alone: Vec<(String, Figure)> = figures.iter().flat_map(alone).collect();
     for name in wanted {
         let Some((_, figure)) = alone.iter().find(|(own, _)| own == name) else {
-            let names: Vec<&str> = alone.iter().map(|(own, _)| own.as_str()).collect();
+            let titled = |(own, figure): &(String, Figure)| format!("{own} ({})", title(&figure.panels[0]));
+            let names: Vec<String> = alone.iter().map(titled).collect();
             let (rule, remedy) = match names[..] {
                 [] => ("absent where each figure has one panel".to_owned(), "leave it out: all figures are drawn"),
                 _ => {
@@ -45,11 +46,16 @@ fn alone(figure: &Figure) -> Vec<(String, Figure)> {
                 panel.series[place].label = label;
             }
         }
-        let caption = format!("Panel ({letter}) of `{}`. {}", figure.name, figure.caption);
+        let caption = format!("Panel ({letter}) of `{}`: {}. {}", figure.name, title(&panel), figure.caption);
         let own = Figure::new(&format!("{}-panel-{letter}", figure.name), &caption, vec![panel]);
         (format!("{}:{letter}", figure.name), own)
     };
     ('a'..='z').zip(several).map(of_panel).collect()
+}
+
+/// Title of a panel, such as a time or the name of a gauge, or what its vertical axis shows.
+fn title(panel: &Panel) -> &str {
+    if panel.title.is_empty() { &panel.y.label } else { &panel.title }
 }
 
 #[cfg(test)]
@@ -71,12 +77,13 @@ mod tests {
         let alone = &figures[2];
         assert_eq!((alone.name.as_str(), alone.panels.len()), ("deposit-panel-b", 1));
         assert_eq!((alone.panels[0].title.as_str(), alone.panels[0].series.len()), ("high", 2));
+        assert_eq!(alone.caption, "Panel (b) of `deposit`: high. Heaps.");
         let labels: Vec<&str> = alone.panels[0].series.iter().map(|series| series.label.as_str()).collect();
         assert_eq!(labels, ["sand", ""], "a curve keeps the name that another panel gives it");
         let message = add_panels(&mut figures, &["deposit:c".to_owned()]).expect_err("unknown").to_string();
         assert_eq!(
             message,
-            "`--panel` is deposit:c, but must be one of deposit:a, deposit:b; name a panel; a figure of one panel is drawn without it"
+            "`--panel` is deposit:c, but must be one of deposit:a (low), deposit:b (high); name a panel; a figure of one panel is drawn without it"
         );
         let message = add_panels(&mut figures[1..2].to_vec(), &["single:a".to_owned()]).expect_err("one").to_string();
         assert!(message.contains("absent where each figure has one panel"), "{message}");
