@@ -106,6 +106,28 @@ fn one_file_of_repeats_is_drawn_checked_submitted_fitted_and_swept() {
     assert!(read("sweep.toml.out/runs/0001-scene/case.toml").contains("overlay = [\"overlay/front.csv\"]"));
 }
 
+/// With seeds every point is evaluated as often, intervals end where the emulator says, and the written case is one that was averaged.
+#[test]
+fn a_fit_over_seeds_counts_once_names_its_ends_and_writes_a_case_with_its_overlay() {
+    let place = place(FRONT);
+    place.file("base.toml", &FLUME.replace("duration", "seed = 7\noverlay = [\"front.csv\"]\nduration"));
+    let plan = FIT.replace("flume.toml", "base.toml").replace(", levels = 2", "");
+    let budget = "repeats = 2\nevaluations = 5\nstarts = 0\nregion_evaluations = 4\n";
+    place.file("seeds.toml", &format!("{budget}{plan}"));
+    let done = place.bagnold(&["-q", "calibrate", "seeds.toml", "--out", "fit"]).assert().code(0);
+    let told = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    let read = |name: &str| std::fs::read_to_string(place.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let evaluations = read("fit/evaluations.csv").lines().count() - 1;
+    assert!(told.contains(&format!("; simulations: {}\n", 2 * evaluations)), "{evaluations} evaluations: {told}");
+    let (page, profiles) = (read("fit/index.html"), read("fit/figures/profiles.csv"));
+    assert!(page.contains(&format!("; simulations: {}; ", 2 * evaluations)), "{page}");
+    assert!(page.contains("their ends those of the emulator") && !page.contains("runs of the model"), "{page}");
+    assert!(!profiles.contains("a run"), "{profiles}");
+    assert!(read("fit/calibrated.toml").contains("\nseed = 1 "));
+    let again = place.bagnold(&["-q", "run", "fit/calibrated.toml", "--out", "again", "--json"]).assert().code(0);
+    assert!(document(&again).metrics.iter().any(|metric| metric.name == "overlay_residual"));
+}
+
 #[test]
 fn wrong_headings_and_units_are_refused_before_anything_is_simulated() {
     for (from, to, said) in [("front [cm]", "toe [cm]", "toe [cm]"), ("front [cm]", "front [kg]", "[kg]")] {

@@ -17,12 +17,15 @@ pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Re
     let folder = folder_of(command.out.as_ref(), "reports/calibrations", &command.file);
     let kept = CalibrationFolder::begin(&folder, &command.file, session.registry.origin(), command.resume)?;
     if plan.choices.is_empty() {
-        // other starts may take as many evaluations again, and so does a search among runs that scatter
-        let searches = (1 + usize::from(plan.budget.starts > 0)) * (1 + usize::from(plan.repeats.count > 1));
+        // other starts may take as many evaluations again, and a search among runs that scatter goes before with its intervals
+        let scatter = usize::from(plan.repeats.count > 1);
         let grid = plan.levels.iter().product();
+        let searches = (1 + usize::from(plan.budget.starts > 0)) * (1 + scatter);
         let search = if plan.levels.is_empty() { searches * plan.budget.evaluations } else { grid };
+        let search = search + scatter * plan.region_evaluations;
         let each = plan.blocks.iter().filter(|block| !block.held_out).count() * plan.repeats.count;
-        let rest = format!("{} for intervals; simulations per evaluation: {each}", plan.region_evaluations);
+        let intervals = plan.region_evaluations + scatter;
+        let rest = format!("{intervals} for intervals; simulations per evaluation: {each}");
         session.note(&format!("planned evaluations: up to {search} for the search, {rest}"));
     }
     if let Some(cost) = EvaluationCost::of(&plan, session.registry) {
@@ -39,7 +42,7 @@ pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Re
     write(&outcome, &plan, &folder)?;
     session.say(&text(&outcome));
     let beyond = outcome.evaluations.len().saturating_sub(outcome.searched);
-    let simulations = std::fs::read_dir(kept.evaluations()).map_or(0, Iterator::count);
+    let simulations = outcome.simulations;
     let needed = format!("{} for the search, {beyond} for intervals; simulations: {simulations}", outcome.searched);
     session.say(&format!("evaluations: {needed}\n"));
     let open = outcome.findings.len();

@@ -9,6 +9,7 @@ use super::target::{Datum, Target};
 use crate::ToolError;
 use crate::inference::posterior::Posterior;
 use crate::inference::{Answer, Evaluated, LocalMinimum};
+use crate::measured::{Measurements, read_overlay, with_overlay};
 use crate::sampling::Spacing;
 
 /// Samples of the posterior that are kept.
@@ -42,17 +43,29 @@ pub(super) fn compared<'r>(
     Ok(data.into_iter().zip(predicted).enumerate().map(one).collect())
 }
 
-/// The fitted cases as complete files, each once.
-pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Vec<String>, ToolError> {
+/// The fitted cases as complete files, each once, with the measurements that they name; where evaluations are repeated, with
+/// the first seed.
+pub(super) fn calibrated(
+    objective: &Objective<'_>,
+    values: &[f64],
+) -> Result<(Vec<String>, Vec<Measurements>), ToolError> {
     let plan = objective.plan;
-    let fitted = plan.blocks.iter().filter(|block| !block.held_out && !block.is_law);
-    fitted
-        .map(|block| {
-            let prepared =
-                block.request.prepare(objective.registry, &plan.file, &plan.settings(block, values), plan.limits)?;
-            Ok(prepared.parameters_toml().to_owned())
-        })
-        .collect()
+    let (mut texts, mut kept) = (Vec::new(), Vec::<Measurements>::new());
+    for place in (0..plan.blocks.len()).filter(|&k| !plan.blocks[k].held_out && !plan.blocks[k].is_law) {
+        let request = &plan.blocks[place].request;
+        let first = &objective.with_seeds(&objective.question(place, values))[0];
+        let prepared = request.prepare(objective.registry, &plan.file, &first.settings, plan.limits)?;
+        let mut overlay = read_overlay(prepared.as_ref(), &request.overlay, &[])?;
+        for own in &mut overlay {
+            // files of one name that two cases have in different folders
+            if kept.iter().any(|other| other.kept() == own.kept() && other.text != own.text) {
+                own.path.set_file_name(format!("{}-{}.csv", own.name(), place + 1));
+            }
+        }
+        texts.push(with_overlay(prepared.parameters_toml(), &overlay));
+        kept.extend(overlay);
+    }
+    Ok((texts, kept))
 }
 
 /// Everything about a search, in physical units; with samples of the posterior if they were asked for.
@@ -61,7 +74,7 @@ pub(super) fn assemble(
     answer: &Answer,
     sensitivity: Vec<ElementaryEffect>,
     (fit, hold_out): (Vec<DatumComparison>, Result<Vec<DatumComparison>, String>),
-    calibrated: Vec<String>,
+    (calibrated, measured): (Vec<String>, Vec<Measurements>),
     truth_inside: Option<bool>,
     posterior: Option<&Posterior>,
 ) -> CalibrationResult {
@@ -111,8 +124,9 @@ pub(super) fn assemble(
         sensitivity,
         fit,
         hold_out,
-        trials: Vec::new(),
         calibrated,
+        measured,
+        ..CalibrationResult::default()
     }
 }
 

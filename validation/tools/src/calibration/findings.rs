@@ -103,9 +103,12 @@ fn of_region(plan: &CalibrationPlan, explored: &Explored) -> Vec<String> {
     for (parameter, ends) in names.iter().zip(&explored.ends) {
         for (end, word) in ends.iter().zip(["lower", "upper"]) {
             if !end.settled {
+                let (open, given) = match plan.repeats.count {
+                    1 => ("the model has not confirmed", ", and the wider of what it and its emulator say is given"),
+                    _ => ("too few runs lie about", ""),
+                };
                 findings.push(format!(
-                    "interval not settled: the model has not confirmed the {word} end of `{}`, and the wider of what it and \
-                     its emulator say is given; allow more `region_evaluations`",
+                    "interval not settled: {open} the {word} end of `{}`{given}; allow more `region_evaluations`",
                     parameter.name
                 ));
             } else if end.fails {

@@ -7,6 +7,7 @@
 //! FOLDER/result.json              everything on the page; evaluations.csv, data.csv
 //! FOLDER/held-out.json            what was held out beside its prediction, with the digest of the plan
 //! FOLDER/calibrated.toml          the first fitted case with the best parameters, for `bagnold run`
+//! FOLDER/overlay/                 the measurements that it names
 //! FOLDER/law.toml                 a law that was fitted to points, with draws of its posterior
 //! ```
 //!
@@ -46,7 +47,7 @@ pub use target::ProfileLocation;
 
 use crate::ToolError;
 use crate::case::Registry;
-use crate::inference::{self, Answer, Evaluate, Method, Repeatability, SearchError, chi_squared};
+use crate::inference::{self, Answer, Evaluate, Evaluated, Method, Repeatability, SearchError, chi_squared};
 use crate::sampling::design;
 use crate::store::Store;
 use assembly::compared;
@@ -93,6 +94,7 @@ pub fn calibrate(
     let asked = posterior.as_ref().filter(|_| plan.method == Method::Posterior || plan.has_law());
     let calibrated = assembly::calibrated(&objective, &values)?;
     let mut outcome = assembly::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked);
+    outcome.simulations = std::fs::read_dir(&objective.folder).map_or(0, Iterator::count);
     let failed = outcome.evaluations.iter().filter(|evaluation| evaluation.chi_squared.is_none()).count();
     if let Some(reason) = objective.last_failure().filter(|_| failed > 0) {
         let beyond = "lines and regions of agreement are the emulator's and may end where this holds";
@@ -132,13 +134,21 @@ fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, Tool
         runs,
         series: objective.series(),
     };
+    let mut first = Vec::new();
     if runs == Repeatability::Scattering {
         objective.variances = objective.first_variances()?;
-        let first = inference::solve(objective, &steps).map_err(|error| unsolved(error, objective))?;
-        objective.variances = objective.variances_about(&first)?;
-        steps.start = first.search.best;
+        let found = inference::solve(objective, &steps).map_err(|error| unsolved(error, objective))?;
+        objective.variances = objective.variances_about(&found)?;
+        steps.start = found.search.best;
+        first = found.search.history.into_iter().map(|evaluated| evaluated.point).collect();
     }
-    inference::solve(objective, &steps).map_err(|error| unsolved(error, objective))
+    let mut answer = inference::solve(objective, &steps).map_err(|error| unsolved(error, objective))?;
+    // what the first search evaluated counts too, with the variances of the second
+    first.retain(|point| answer.search.history.iter().all(|known| known.point != *point));
+    let residuals = objective.residuals(&first)?;
+    answer.searched += first.len();
+    answer.search.history.splice(0..0, first.into_iter().zip(residuals).map(|(point, own)| Evaluated::new(point, own)));
+    Ok(answer)
 }
 
 /// Error of a search without a result, with the last message of the model.

@@ -73,7 +73,7 @@ impl Objective<'_> {
     }
 
     /// The question with every seed; once as it is where there is nothing to repeat.
-    fn with_seeds(&self, question: &Question) -> Vec<Question> {
+    pub(super) fn with_seeds(&self, question: &Question) -> Vec<Question> {
         let case = &self.plan.blocks[question.block].request.case;
         match self.plan.repeats.path_in(case) {
             None => vec![question.clone()],

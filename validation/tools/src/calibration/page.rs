@@ -30,6 +30,7 @@ pub fn write(outcome: &CalibrationResult, plan: &CalibrationPlan, folder: &Path)
         let name = if place == 0 { "calibrated.toml".to_owned() } else { format!("calibrated-{}.toml", place + 1) };
         write_whole(&folder.join(name), text.as_bytes()).map_err(unwritable)?;
     }
+    outcome.measured.iter().try_for_each(|own| own.keep(folder)).map_err(unwritable)?;
     if let Some(law) = law::file(outcome, plan) {
         write_whole(&folder.join("law.toml"), law.as_bytes()).map_err(unwritable)?;
     }
@@ -110,8 +111,8 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
         let beyond = outcome.evaluations.len() - outcome.searched;
         lines.push(format!(
             "{} evaluations by {} and {beyond} at the ends of the intervals and the edge of the joint region, {failed} of them \
-             failed; {}.",
-            outcome.searched, outcome.method, outcome.stopped
+             failed; simulations: {}; {}.",
+            outcome.searched, outcome.method, outcome.simulations, outcome.stopped
         ));
         let scatter = outcome.fit.iter().map(|datum| datum.scatter).fold(0.0, f64::max);
         if scatter > 0.0 {
@@ -257,6 +258,7 @@ fn render(
         "data": all_data(outcome).into_iter().map(datum).collect::<Vec<_>>(),
         "summary": summary(outcome).into_iter().chain(judged.map(HeldOutJudgement::in_words)).collect::<Vec<_>>().iter().map(|line| with_code(line)).collect::<Vec<_>>(),
         "pictures": pictures,
+        "ends": outcome.ends_in_words(),
         "outcome": outcome,
     });
     page::fill(&[("index.html", include_str!("template/index.html"))], "index.html", &page)

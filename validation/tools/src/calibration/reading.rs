@@ -7,6 +7,7 @@ use crate::ToolError;
 use crate::case::{Limits, Registry};
 use crate::evaluation::read_plan;
 use crate::input::FieldError;
+use crate::measured::read_overlay;
 use crate::store::Store;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -67,6 +68,7 @@ impl CalibrationPlan {
                 prepared = prepare(&first)
                     .map_err(|_| self.repeats.seedless(&block.request.case, path).in_file(&self.file))?;
             }
+            read_overlay(prepared.as_ref(), &block.request.overlay, &[])?;
             if let Some(outline) = prepared.outline() {
                 let mut places = block.data.iter().filter_map(|text| text.target(0.0).place());
                 places.try_for_each(|place| place.found(&outline.tables).map(drop)).map_err(|reason| {

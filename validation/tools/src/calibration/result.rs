@@ -1,6 +1,7 @@
 //! Results of a calibration for its page and files: plain data without a trace of when or where it ran.
 
 use super::target::ProfileLocation;
+use crate::measured::Measurements;
 use serde::{Deserialize, Serialize};
 
 /// One datum beside the model.
@@ -53,7 +54,7 @@ pub struct ParameterEstimate {
     pub gaps: Vec<(f64, f64)>,
     /// Whether the interval ends at a bound only because the search does.
     pub open: (bool, bool),
-    /// Whether the model itself has confirmed its ends.
+    /// Whether the model itself has confirmed its ends; where its runs scatter, whether the emulator has runs about them.
     pub settled: (bool, bool),
     /// χ² of the model at the ends above that of the best point `[-]`; none where it was not evaluated there.
     pub rise: (Option<f64>, Option<f64>),
@@ -63,6 +64,14 @@ pub struct ParameterEstimate {
     pub profile: Vec<(f64, f64)>,
     /// The value that synthetic data were made with.
     pub truth: Option<f64>,
+}
+
+impl CalibrationResult {
+    /// Origin of the intervals' ends: where runs scatter, χ² there is that of the emulator.
+    pub(super) fn ends_in_words(&self) -> &'static str {
+        let has_run = |found: &ParameterEstimate| found.rise != (None, None);
+        if self.parameters.iter().any(has_run) { "runs of the model" } else { "those of the emulator" }
+    }
 }
 
 impl ParameterEstimate {
@@ -157,7 +166,7 @@ pub struct CalibrationResult {
     pub method: String,
     /// Reason for the end of the search.
     pub stopped: String,
-    /// Evaluations of the search itself, other starts among them.
+    /// Evaluations of the search itself, other starts among them, and those from which the scatter of runs is known.
     pub searched: usize,
     /// All evaluations by number: the search, then the ends of the intervals.
     pub evaluations: Vec<Evaluation>,
@@ -195,6 +204,11 @@ pub struct CalibrationResult {
     pub trials: Vec<ChoiceResult>,
     /// Complete parameters of every fitted case at the best point.
     pub calibrated: Vec<String>,
+    /// Measurements that those cases name.
+    #[serde(skip)]
+    pub measured: Vec<Measurements>,
+    /// Simulations with a record: those of the evaluations and of data held out.
+    pub simulations: usize,
 }
 
 /// Root mean square of weighted residuals `[-]`; none without data.

@@ -79,9 +79,17 @@ fn profiles(outcome: &CalibrationResult) -> Option<Figure> {
         panel.line("profile", 0, points);
         panel.reference("95 %", [(ends.0, threshold), (ends.1, threshold)]);
         panel.points("best", 1, [(parameter.best, 0.0)]);
-        let runs = parameter.interval.map(|(low, high)| [(low, parameter.rise.0), (high, parameter.rise.1)]);
-        let evaluated = runs.into_iter().flatten().filter_map(|(value, rise)| Some((value, rise?)));
-        panel.points("model", 3, evaluated.filter(|point| point.1 <= highest));
+        let ((below, above), open) = (parameter.rise, parameter.open);
+        let interval = parameter.interval.map(|(low, high)| [(low, below, open.0), (high, above, open.1)]);
+        let interval = || interval.into_iter().flatten();
+        let runs: Vec<_> = interval().filter_map(|(value, rise, _)| Some((value, rise?))).collect();
+        let emulated = interval().filter(|(_, rise, is_open)| rise.is_none() && !is_open);
+        let emulated: Vec<_> = emulated.map(|(value, ..)| (value, threshold)).collect();
+        for (label, colour, points) in [("end, a run", 3, runs), ("end, by the emulator", 4, emulated)] {
+            if !points.is_empty() {
+                panel.points(label, colour, points.into_iter().filter(|point| point.1 <= highest));
+            }
+        }
         if let Some(truth) = parameter.truth.filter(|truth| *truth >= ends.0 && *truth <= ends.1) {
             panel.points("truth", 2, [(truth, 0.0)]);
         }
@@ -92,7 +100,7 @@ fn profiles(outcome: &CalibrationResult) -> Option<Figure> {
         Figure::new(
             "profiles",
             "Profile likelihood: χ² with all other parameters at their best, on an emulator of the \
-             evaluations. Values below the dashed line agree with the data at 95 %; points at the ends are runs of the model.",
+             evaluations. Values below the dashed line agree with the data at 95 %.",
             panels,
         )
         .in_columns(columns)
