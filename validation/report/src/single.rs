@@ -112,11 +112,29 @@ impl SingleRun {
     }
 }
 
-/// Whether a metric is measured, and by a steady run, but without a gate: its reference does not hold for these parameters.
+/// Whether a metric of a steady run is without a gate or not measured at all: its reference does not hold for these parameters.
 fn loses_its_gate_by_parameters(case: &CaseReport, key: &MetricKey) -> bool {
     let is_unsteady = |metric: &Metric| {
         metric.reason_of_absence().is_some()
             && (key.variant.includes(&metric.variant) || metric.variant.includes(&key.variant))
     };
-    case.metric(key).is_some_and(|metric| metric.gate.is_none()) && !case.metrics.iter().any(is_unsteady)
+    case.metric(key).is_none_or(|metric| metric.gate.is_none()) && !case.metrics.iter().any(is_unsteady)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{case, gated};
+    use super::*;
+
+    /// The user's parameters, not a fault, take away what the shipped case measures or judges.
+    #[test]
+    fn gates_of_the_shipped_case_that_own_parameters_take_away_are_no_failure() {
+        let key = MetricKey::of("film", &gated("plug", 0.3));
+        let observed = Metric { gate: None, ..gated("plug", 0.3) };
+        for (metrics, is_lost) in [(vec![gated("plug", 0.3)], false), (vec![observed], true), (Vec::new(), true)] {
+            assert_eq!(loses_its_gate_by_parameters(&case("film", metrics), &key), is_lost);
+        }
+        let unsteady = gated("plug", f64::NAN).remarked(Some("not steady".to_owned()));
+        assert!(!loses_its_gate_by_parameters(&case("film", vec![unsteady]), &key), "the run is at fault");
+    }
 }
