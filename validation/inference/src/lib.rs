@@ -58,7 +58,7 @@ pub mod internals {
     pub use crate::inference::descent::{Smooth, descend};
     pub use crate::inference::emulator::correction::KrigingCorrection;
     pub use crate::inference::loss::CORNER;
-    pub use crate::inference::percentile::middles;
+    pub use crate::inference::posterior::middles;
     pub use crate::inference::search::differences::{Iterate, differences};
     pub use crate::inference::search::recorder::{Halt, Recorder};
     pub use crate::inference::serial_correlation::Fit;

@@ -6,6 +6,7 @@ use crate::case::RunSummary;
 use crate::metric::{GateOwner, Metric, PredictionInterval, Variant, Verdict};
 use crate::number::{aligned_digits, in_unit};
 use crate::observation::Outcome;
+use crate::statistics::mean_and_variance;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
@@ -92,15 +93,9 @@ fn without_interval(metrics: &[Metric]) -> String {
     }
     let (single, several): (Vec<_>, Vec<_>) = of_gauge.iter().partition(|(_, (values, _))| values.len() == 1);
     let over_runs = several.iter().map(|(name, (values, unit))| {
-        let count = values.len();
-        let mean = values.iter().sum::<f64>() / count as f64;
-        let square: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-        let deviation = (square / (count - 1) as f64).sqrt();
-        format!(
-            "{name} over {count} runs: {} {unit}, standard deviation {}\n",
-            aligned_digits(mean),
-            aligned_digits(deviation)
-        )
+        let (mean, variance) = mean_and_variance(values.iter().copied());
+        let [mean, deviation] = [mean, variance.sqrt()].map(aligned_digits);
+        format!("{name} over {} runs: {mean} {unit}, standard deviation {deviation}\n", values.len())
     });
     let names: Vec<&str> = single.iter().map(|(name, _)| name.as_str()).collect();
     let line = format!("no interval for {}: vary `seed`, `spacing` and `stiffness` in a study\n", names.join(", "));

@@ -35,16 +35,16 @@ pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Re
         }
         session.note(&cost_in_words(&cost, plan.limits.core_hours));
     }
-    let bar = EvaluationBar(CountBar::new("simulations", 0, 0, session.quiet));
-    bar.0.plan(plan.usual_evaluations());
+    let bar = CountBar::new("simulations", 0, 0, session.quiet);
+    bar.plan(plan.usual_evaluations());
     let outcome = calibrate(&plan, &kept, session.registry, &command.work.open_store(), &bar)?;
     drop(bar);
     write(&outcome, &plan, &folder)?;
     session.say(&text(&outcome));
     let beyond = outcome.evaluations.len().saturating_sub(outcome.searched);
-    let simulations = outcome.simulations;
-    let needed = format!("{} for the search, {beyond} for intervals; simulations: {simulations}", outcome.searched);
-    session.say(&format!("evaluations: {needed}\n"));
+    let (searched, simulations) = (outcome.searched, outcome.simulations);
+    session
+        .say(&format!("evaluations: {searched} for the search, {beyond} for intervals; simulations: {simulations}\n"));
     let open = outcome.findings.len();
     let found = outcome.parameters.iter().map(|found| format!("{} = {}", found.name, aligned_digits(found.best)));
     let found: Vec<String> =
@@ -96,19 +96,16 @@ fn text(outcome: &CalibrationResult) -> String {
     text
 }
 
-/// A progress bar that counts the simulations of all evaluations.
-struct EvaluationBar(CountBar);
-
-impl CalibrationMonitor for EvaluationBar {
+impl CalibrationMonitor for CountBar {
     fn expected(&self, evaluations: usize) {
-        self.0.expect(evaluations);
+        self.expect(evaluations);
     }
 
     fn evaluated(&self, case: &str, failure: Option<&str>) {
         if let Some(reason) = failure {
             tracing::warn!("{case}: {reason}");
         }
-        self.0.say(case);
-        self.0.step();
+        self.say(case);
+        self.step();
     }
 }

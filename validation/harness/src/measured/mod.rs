@@ -6,7 +6,7 @@ mod place;
 mod reading;
 
 pub use column::ColumnSource;
-pub use place::HALF_A_ROW;
+pub use place::{HALF_A_ROW, coarse_in_words};
 pub use reading::WantedColumns;
 
 use crate::case::{CaseResult, ParameterError, PreparedCase};
@@ -193,10 +193,11 @@ impl Measurements {
             if one_of_several { variant.and("curve", text_of_variant(&curve.label).as_str()) } else { variant };
         let (compared, all) = (curve.compared, self.measured.values.len());
         let left_out = || format!("`{}` has a value at {compared} of {all} measurements", curve.label);
+        let remarks = (compared < all).then(left_out).into_iter().chain(curve.coarse.clone());
         let confidence = self.said.confidence.unwrap_or(Confidence::Low);
         let metric = Metric::observed("overlay_residual", &variant, curve.residual, "-")
             .against(Some(0.0), &self.source(), confidence)
-            .remarked((compared < all).then(left_out))
+            .remarked(remarks.reduce(|all, own| format!("{all}; {own}")))
             .of_kind(MetricKind::Validation);
         let (limit, reason) = self.limit().unzip();
         metric.gated_by(limit, &reason.unwrap_or_default()).of_user()

@@ -5,6 +5,7 @@ use super::reading::heading as of_column;
 use crate::evidence::NumberColumn;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::input::{FieldError, parted, unit};
+use crate::number::four_digits;
 use crate::statistics::{Extrapolation, interpolated};
 use std::collections::BTreeSet;
 
@@ -33,6 +34,18 @@ pub(super) struct CurveResidual {
     pub(super) residual: f64,
     /// Measurements at which it has one.
     pub(super) compared: usize,
+    /// Remark on uncertainties that are smaller than the curve's resolution.
+    pub(super) coarse: Option<String>,
+}
+
+/// Remark on points (uncertainty, resolution) where half a row of particles is more than the uncertainty and counts in its place.
+pub fn coarse_in_words(points: &[(f64, f64)], unit: &str) -> Option<String> {
+    let coarse: Vec<f64> = points.iter().filter(|(own, row)| row > own).map(|point| point.1).collect();
+    let most = four_digits(coarse.iter().copied().reduce(f64::max)?);
+    let (count, all) = (coarse.len(), points.len());
+    Some(format!(
+        "half a row of particles, up to {most} {unit}, counts in place of the uncertainty at {count} of {all} measurements"
+    ))
 }
 
 impl MatchingPanel {
@@ -107,8 +120,9 @@ impl MatchingPanel {
             let half = |&(x, least, most): &(f64, f64, f64)| (x, 0.5 * (most - least).abs());
             let band = panel.bands.iter().find(|band| band.label == HALF_A_ROW);
             let resolution: Vec<(f64, f64)> = band.iter().flat_map(|band| &band.points).map(half).collect();
-            let (residual, compared) = self.residual(measurements, &series.points, &resolution)?;
-            Some(CurveResidual { label: series.label.clone(), residual, compared })
+            let (residual, points) = self.residual(measurements, &series.points, &resolution)?;
+            let coarse = coarse_in_words(&points, parted(&panel.y.label).1);
+            Some(CurveResidual { label: series.label.clone(), residual, compared: points.len(), coarse })
         };
         let curves: Vec<CurveResidual> = series.iter().filter_map(residual).collect();
         if curves.is_empty() {
@@ -122,14 +136,14 @@ impl MatchingPanel {
         Ok(curves)
     }
 
-    /// The residual in uncertainties, which are no smaller than the curve's resolution, and at how many measurements; none where all of
-    /// them lie beyond the curve's ends.
+    /// The residual in uncertainties, which are no smaller than the curve's resolution, and both of every measurement that it is taken
+    /// from; none where all of them lie beyond the curve's ends.
     fn residual(
         &self,
         measurements: &Measurements,
         points: &[(f64, f64)],
         resolution: &[(f64, f64)],
-    ) -> Option<(f64, usize)> {
+    ) -> Option<(f64, Vec<(f64, f64)>)> {
         let mut curve: Vec<(f64, f64)> = points.iter().map(|point| self.turned(*point)).collect();
         curve.retain(|(x, _)| x.is_finite());
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -137,18 +151,19 @@ impl MatchingPanel {
         let (first, last) = (curve.first()?.0, curve.last()?.0);
         let is_beside = measurements.abscissa.values.iter().any(|x| (first..=last).contains(&(x * to_x)));
         let given = measurements.abscissa.values.iter().zip(&measurements.measured.values);
-        let squares: Vec<f64> = given
+        let (squares, points): (Vec<f64>, Vec<_>) = given
             .zip(&measurements.uncertainty)
             .filter_map(|((x, y), uncertainty)| {
                 let at =
                     |of: &[(f64, f64)]| interpolated(of, x * to_x, (Extrapolation::Nothing, Extrapolation::Nothing));
                 let least = at(resolution).unwrap_or(0.0);
-                let residual = (at(&curve)? - y * to_y) / (uncertainty * to_y).max(least);
-                Some(residual * residual)
+                let own = uncertainty * to_y;
+                let residual = (at(&curve)? - y * to_y) / own.max(least);
+                Some((residual * residual, (own, least)))
             })
-            .collect();
+            .unzip();
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-        is_beside.then_some((mean.sqrt(), squares.len()))
+        is_beside.then_some((mean.sqrt(), points))
     }
 }
 
@@ -204,8 +219,12 @@ fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {
     let there: BTreeSet<String> = there.collect();
     let there: Vec<String> = there.into_iter().collect();
     let rule = format!("the axes of one of the case's figures, in names and kinds of units ({})", there.join("; "));
+    let units = [&measurements.abscissa.unit, &measurements.measured.unit];
+    let unknown =
+        units.into_iter().find(|own| !unit::is_known(own)).map(|own| format!("[{own}] is not a known unit; "));
     let remedy = "name the columns as the axes are labelled, with any unit of the same kind";
-    FieldError::new("columns", axes(measurements), &rule, remedy).in_file(&measurements.path)
+    let remedy = unknown.unwrap_or_default() + remedy;
+    FieldError::new("columns", axes(measurements), &rule, &remedy).in_file(&measurements.path)
 }
 
 fn too_many(measurements: &Measurements, figures: &[Figure], several: &[MatchingPanel]) -> FieldError {

@@ -6,6 +6,7 @@ use crate::evidence::NumberColumn;
 use crate::input::{DOCUMENT, FieldError, MeasuredFiles, TableRows, name_and_unit, plain_lines, read_text, unit};
 use crate::metric::Confidence;
 use crate::output::FileError;
+use crate::statistics::mean_and_variance;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -19,7 +20,8 @@ const UNCERTAINTY: [&str; 5] = ["uncertainty", "sigma", "σ", "std", "stdev"];
 const FORM: &str = "abscissa, quantity, uncertainty or repeats, with units";
 
 /// A row of that form.
-const ROW: &str = "write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`";
+const ROW: &str =
+    "write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`, repeats as `front #1 [cm],front #2 [cm]`";
 
 /// Form of repeats and of own headings in a case file, study or plan.
 const NAMED: &str =
@@ -249,14 +251,6 @@ impl MeasuredColumns {
         let rows = (0..self.over.values.len()).map(|row| line(&|own| own.values[row].to_string()));
         comments.chain([line(&heading)]).chain(rows).map(|line| line + "\n").collect()
     }
-}
-
-/// Mean and variance of a row's repeats; of a single one itself and 0.
-fn mean_and_variance(values: impl ExactSizeIterator<Item = f64> + Clone) -> (f64, f64) {
-    let count = values.len() as f64;
-    let mean = values.clone().sum::<f64>() / count;
-    let squares: f64 = values.map(|value| (value - mean) * (value - mean)).sum();
-    (mean, squares / (count - 1.0).max(1.0))
 }
 
 /// Values that the comments give. A key with a slip of the pen is refused: a limit must not vanish.

@@ -1,6 +1,6 @@
 use super::*;
 use crate::case::Tier;
-use crate::figure::{Axis, Figure, Mark, Panel};
+use crate::figure::{Axis, Band, Figure, Mark, Panel};
 use crate::metric::Verdict;
 
 const TABLE: &str = "# source: own flume\nt [ms],front [cm],uncertainty [mm]\n100,20,10\n200,40,10\n";
@@ -81,6 +81,25 @@ fn a_residual_is_the_root_mean_square_in_uncertainties_and_a_stated_limit_judges
     let unverified = "# confidence: unverified\n".to_owned() + &text(3.0);
     read(&unverified).expect("a table").draw(&mut result).expect("drawn");
     assert_eq!(result.metrics[0].verdict(), Verdict::Observed, "what is unverified never judges");
+}
+
+/// A front jumps by rows of particles, whatever a camera resolves.
+#[test]
+fn a_resolution_that_counts_in_place_of_uncertainties_is_told() {
+    let mut own = result();
+    let points = [(0.0, 0.0, 0.1), (1.0, 2.0, 2.1)];
+    own.figures[0].panels[0].bands.push(Band { label: HALF_A_ROW.to_owned(), points: points.to_vec() });
+    let table = "t [s],front [m],uncertainty [m]\n0.1,0.3,0.01\n0.2,0.5,0.02\n0.3,0.7,1\n7,1,1\n";
+    read(table).expect("a table").draw(&mut own).expect("drawn");
+    let metric = own.metrics.remove(0);
+    assert!((metric.value - (8.01f64 / 3.0).sqrt()).abs() < 1e-12, "{}", metric.value);
+    assert_eq!(
+        metric.remark.as_deref(),
+        Some(
+            "`sand` has a value at 3 of 4 measurements; half a row of particles, up to 0.05 m, counts in place of the uncertainty at \
+             2 of 3 measurements"
+        )
+    );
 }
 
 /// A gauge at a place that is reached after half a second.
@@ -202,7 +221,7 @@ fn invalid_measurements_are_refused() {
         ),
         (
             "t,front [m],uncertainty [m]\n1,1,1\n",
-            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`, or in a case file give { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }",
+            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`, repeats as `front #1 [cm],front #2 [cm]`, or in a case file give { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }",
         ),
         (
             "t [s],front [m],uncertainty [s]\n1,1,1\n",

@@ -10,6 +10,7 @@ use super::emulator::{Degree, Emulator, distance};
 use super::ends::{CLOSE, IntervalEnd, IntervalSide, TOLERANCE};
 use super::profile::ProfileLikelihood;
 use super::region::{Region, Uncertainties};
+use super::search::lowest;
 use super::{Budget, Evaluate, Evaluated, largest_distance};
 use nalgebra::SymmetricEigen;
 
@@ -53,19 +54,19 @@ impl Explored {
 
     /// The lowest evaluated point of every part of an interval in which no known minimum lies.
     pub(super) fn branches_without(&self, known: &[LocalMinimum]) -> Vec<Vec<f64>> {
-        let mut lowest: Vec<Vec<f64>> = Vec::new();
+        let mut found: Vec<Vec<f64>> = Vec::new();
         for (k, profile) in self.region.profiles.iter().enumerate().filter(|(_, profile)| !profile.gaps.is_empty()) {
             for [from, to] in profile.intervals(k) {
                 let has = |point: &[f64]| (from..=to).contains(&point[k]);
-                if known.iter().map(|minimum| &minimum.point).chain(&lowest).any(|point| has(point)) {
+                if known.iter().map(|minimum| &minimum.point).chain(&found).any(|point| has(point)) {
                     continue;
                 }
                 let inside: Vec<Evaluated> =
                     self.history.iter().filter(|evaluated| has(&evaluated.point)).cloned().collect();
-                lowest.extend(best(&inside).map(|minimum| minimum.point));
+                found.extend(lowest(&inside).map(|minimum| minimum.point));
             }
         }
-        lowest
+        found
     }
 
     /// Points in the wide stretches that the intervals of the least determined parameter leave out, along the emulator's valley.
@@ -105,7 +106,7 @@ pub fn explore<M: Evaluate>(
 ) -> Result<Option<Explored>, M::Error> {
     let searched = history.len();
     let most = searched + budget.evaluations;
-    let Some(first) = best(&history) else { return Ok(None) };
+    let Some(first) = lowest(&history) else { return Ok(None) };
     let dimensions = first.point.len();
     let mut sides = IntervalSide::all(dimensions);
     let senses = |axis| [1.0, -1.0].map(|sense| RegionCheck { axis, sense, holds: false });
@@ -144,7 +145,8 @@ pub fn explore<M: Evaluate>(
             let joint_settled = open.is_empty() && of_edge.is_empty() && edges.is_empty() && leads.is_empty();
             return Ok(Some(finished(emulator, region, &ends, joint_settled, history, lower)));
         }
-        evaluate(model, &mut history, fresh)?;
+        let results = model.residuals(&fresh)?;
+        history.extend(fresh.into_iter().zip(results).map(|(point, residuals)| Evaluated::new(point, residuals)));
         for (side, point) in open.iter().zip(&at_ends) {
             if let Some(place) = place_of(&history, point) {
                 let rise = history[place].chi_squared.map(|chi| chi - region.minimum.chi_squared);
@@ -160,16 +162,6 @@ pub fn explore<M: Evaluate>(
     Ok(None)
 }
 
-/// The evaluated point of least χ².
-fn best(history: &[Evaluated]) -> Option<LocalMinimum> {
-    history
-        .iter()
-        .filter_map(|evaluated| {
-            Some(LocalMinimum { point: evaluated.point.clone(), chi_squared: evaluated.chi_squared? })
-        })
-        .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
-}
-
 /// Index of a point in the history.
 fn place_of(history: &[Evaluated], point: &[f64]) -> Option<usize> {
     history.iter().position(|evaluated| evaluated.point == point)
@@ -183,7 +175,7 @@ fn mapped(
     uncertainties: Uncertainties,
     budget: &Budget,
 ) -> Option<(Emulator, Region)> {
-    let best = best(history)?;
+    let best = lowest(history)?;
     let emulator = Emulator::fit(history, budget.difference)?;
     let region = Region::about(&emulator, best.clone(), uncertainties);
     let limit = best.chi_squared + FAR * region.threshold;
@@ -261,13 +253,6 @@ fn finished(
     }
     region.draw();
     Explored { emulator, region, ends, joint_settled, history, lower }
-}
-
-/// Adds the model at some points to the history.
-fn evaluate<M: Evaluate>(model: &mut M, history: &mut Vec<Evaluated>, points: Vec<Vec<f64>>) -> Result<(), M::Error> {
-    let results = model.residuals(&points)?;
-    history.extend(points.into_iter().zip(results).map(|(point, residuals)| Evaluated::new(point, residuals)));
-    Ok(())
 }
 
 /// A point on a principal axis, just inside the edge of the joint region on one side and just outside on the other, or on

@@ -12,7 +12,6 @@ pub mod ends;
 pub mod explore;
 pub mod identifiability;
 pub(crate) mod loss;
-pub(crate) mod percentile;
 pub mod posterior;
 mod profile;
 pub mod region;

@@ -8,9 +8,9 @@
 //! Source: Goodman & Weare, Communications in Applied Mathematics and Computational Science 5 (2010) 65.
 
 use super::emulator::Emulator;
-use super::percentile::middles;
-use super::region::Region;
+use super::region::{CENTRAL, Region};
 use crate::sampling::Random;
+use crate::statistics::percentile;
 use nalgebra::DVector;
 
 /// Walkers, an even number.
@@ -121,4 +121,14 @@ pub fn predictive(emulator: &Emulator, posterior: &Posterior) -> Vec<[f64; 2]> {
     let thinned = posterior.samples.iter().step_by((posterior.samples.len() / 400).max(1));
     let predicted: Vec<Vec<f64>> = thinned.map(|sample| emulator.predict(sample)).collect();
     middles(&predicted, emulator.data())
+}
+
+/// Intervals that hold 95 % of each coordinate of some points, as many left out below as above.
+pub fn middles(points: &[Vec<f64>], coordinates: usize) -> Vec<[f64; 2]> {
+    let middle = |k: usize| {
+        let mut values: Vec<f64> = points.iter().map(|point| point[k]).collect();
+        values.sort_by(f64::total_cmp);
+        CENTRAL.map(|share| percentile(&values, share))
+    };
+    (0..coordinates).map(middle).collect()
 }

@@ -20,7 +20,7 @@ pub use fit::{Exponent, FittedValue, LinearFit, common_slope, linear_fit, log_lo
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
 pub use groups::grouped;
 pub use interpolation::{Extrapolation, interpolated};
-pub use mean::{mean, relative_l2};
+pub use mean::{mean, mean_and_variance, relative_l2};
 pub use model_bias::{Comparison, Deviation, ModelBias, model_bias};
 pub use neighbour_scatter::neighbour_scatter;
 pub use percentile::percentile;

@@ -22,25 +22,25 @@ pub(super) fn compared<'r>(
     answer: impl Fn(usize) -> Option<&'r Repeated>,
     named: impl Fn(&Target) -> Target,
 ) -> Result<Vec<DatumComparison>, ToolError> {
-    let data: Vec<Datum> =
-        objective.data_of(held_out).map(|datum| Datum { target: named(&datum.target), ..datum.clone() }).collect();
-    let owned: Vec<Option<Repeated>> = (0..objective.plan.blocks.len()).map(|k| answer(k).cloned()).collect();
-    let predicted = objective.predict(data.iter(), |block| owned[block].as_ref())?;
-    let one = |(place, (datum, model)): (usize, (Datum, f64))| DatumComparison {
-        block: objective.plan.blocks[datum.block].field.clone(),
-        label: datum.target.label(),
-        at: datum.target.place(),
-        datum: datum.value,
-        band: datum.band(),
-        model,
-        unit: datum.unit.clone(),
-        residual: datum.residual(model) * if held_out { 1.0 } else { objective.weight(place) },
-        scatter: if held_out { 0.0 } else { objective.scatter(place) },
-        predicted: None,
-        spread: 0.0,
-        source: datum.source,
+    let one = |(place, datum): (usize, &Datum)| {
+        let target = named(&datum.target);
+        let model = objective.predict(datum, &target, answer(datum.block))?;
+        Ok(DatumComparison {
+            block: objective.plan.blocks[datum.block].field.clone(),
+            label: target.label(),
+            at: target.place(),
+            datum: datum.value,
+            band: datum.band(),
+            model,
+            unit: datum.unit.clone(),
+            residual: datum.residual(model) * if held_out { 1.0 } else { objective.weight(place) },
+            scatter: if held_out { 0.0 } else { objective.scatter(place) },
+            predicted: None,
+            spread: 0.0,
+            source: datum.source.clone(),
+        })
     };
-    Ok(data.into_iter().zip(predicted).enumerate().map(one).collect())
+    objective.data_of(held_out).enumerate().map(one).collect()
 }
 
 /// The fitted cases as complete files, each once, with the measurements that they name; where evaluations are repeated, with
@@ -79,6 +79,8 @@ pub(super) fn assemble(
     posterior: Option<&Posterior>,
 ) -> CalibrationResult {
     let search = &answer.search;
+    let count = plan.repeats.count;
+    let seeds = if count > 1 { format!(", every evaluation the mean of {count} seeds,") } else { String::new() };
     let region = answer.explored.as_ref().map(|explored| &explored.region);
     let mut findings = findings::of(plan, answer, &fit);
     let hold_out = hold_out.unwrap_or_else(|reason| {
@@ -99,7 +101,7 @@ pub(super) fn assemble(
     CalibrationResult {
         title: plan.title.clone(),
         note: plan.note.clone(),
-        method: plan.method_name(),
+        method: plan.method.name().to_owned() + &seeds,
         stopped: search.stopped.to_string(),
         searched: answer.searched,
         evaluations: search.history.iter().map(evaluation).collect(),

@@ -194,12 +194,10 @@ impl DatumText {
             return Err(format!("no numbers for the truth: {failure}"));
         }
         let places = match self.target(0.0) {
-            Target::Profile(ProfileLocation { table, x, .. }) => {
+            Target::Profile(location) => {
                 let tables = truth.with_seed(0).map_or(&[][..], |record| &record.tables);
-                let range = tables.iter().find(|other| other.name == table).and_then(|found| {
-                    let column = found.columns.iter().position(|column| *column == x)?;
-                    Some((found.rows.first()?[column], found.rows.last()?[column]))
-                });
+                let found = location.found(tables).ok();
+                let range = found.and_then(|(found, x, _)| Some((found.rows.first()?[x], found.rows.last()?[x])));
                 // a table or column that does not exist is named by the first prediction
                 let (first, last) = range.unwrap_or_default();
                 let bins = self.bins.unwrap_or(20);

@@ -3,9 +3,9 @@
 use super::law;
 use super::plan::CalibrationPlan;
 use super::result::DatumComparison;
-use crate::inference::diagnosis::outliers;
+use crate::inference::diagnosis::{outliers, widest_step};
 use crate::inference::{Answer, Explored, ParameterLabel, SerialCorrelation, Termination, UNLIKELY, assess};
-use crate::number::short_digits;
+use crate::number::{four_digits, short_digits};
 
 /// Everything that a search and its region leave open, the gravest first.
 pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison]) -> Vec<String> {
@@ -17,6 +17,7 @@ pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison
         Some(explored) => {
             findings.extend(of_fit(plan.parameters.len(), explored.region.p_value, fit));
             findings.extend(answer.correlation.map(correlated));
+            findings.extend(stepped(plan, answer, explored, fit));
             findings.extend(of_region(plan, explored));
             findings.extend(law::beyond(plan, &plan.values(&answer.search.best), fit));
         }
@@ -91,6 +92,23 @@ fn correlated(SerialCorrelation { coefficient, factor }: SerialCorrelation) -> S
         short_digits(coefficient, 2),
         short_digits(factor, 2)
     )
+}
+
+/// Finding of a model that gives the same at parameters between which it should change, as fronts of whole rows of particles do.
+fn stepped(plan: &CalibrationPlan, answer: &Answer, explored: &Explored, fit: &[DatumComparison]) -> Option<String> {
+    let worst = answer.search.chi_squared + 2.0 * explored.region.limit;
+    let step = widest_step(&explored.region.jacobian(), &answer.search.history, worst)?;
+    let ends = step.points.map(|point| plan.values(point));
+    let name =
+        |k: usize| format!("`{}` {} and {}", plan.parameters[k].name, four_digits(ends[0][k]), four_digits(ends[1][k]));
+    let places: Vec<String> = (0..ends[0].len()).filter(|&k| ends[0][k] != ends[1][k]).map(name).collect();
+    Some(format!(
+        "χ² has steps, which more evaluations do not settle: `{}` is the same at {}, where it should differ by {} σ; refine \
+         `spacing`, measure thicker fronts, fit a series, or set `repeats`",
+        fit[step.datum].label,
+        places.join(", "),
+        short_digits(step.promised, 2)
+    ))
 }
 
 fn of_region(plan: &CalibrationPlan, explored: &Explored) -> Vec<String> {

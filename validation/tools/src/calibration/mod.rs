@@ -30,7 +30,6 @@ mod reading;
 mod repeated;
 mod repeats;
 mod result;
-mod screening;
 mod target;
 mod text;
 mod trials;
@@ -47,6 +46,8 @@ pub use target::ProfileLocation;
 
 use crate::ToolError;
 use crate::case::Registry;
+use crate::inference::posterior::sample;
+use crate::inference::sensitivity::{self, Effect};
 use crate::inference::{self, Answer, Evaluate, Evaluated, Method, Repeatability, SearchError, chi_squared};
 use crate::sampling::design;
 use crate::store::Store;
@@ -79,19 +80,27 @@ pub fn calibrate(
     }
     let answer = answer(&mut objective, start)?;
     let truth_inside = truth_inside(plan, &mut objective, &answer)?;
-    let sensitivity = screening::screen(&mut objective, plan.trajectories)?;
+    let effects = match plan.trajectories {
+        0 => Vec::new(),
+        count => sensitivity::screen(&mut objective, plan.parameters.len(), count, plan.budget.seed)?,
+    };
+    let named = plan.parameters.iter().map(|parameter| parameter.name.clone()).zip(effects);
+    let effect =
+        |(name, own): (String, Effect)| ElementaryEffect { name, effect: own.mean_size, spread: own.deviation };
+    let sensitivity = named.map(effect).collect();
     let values = plan.values(&answer.search.best);
     let failed = |reason| ToolError::at(&plan.file, reason);
     let mut fit = compare_at(&objective, &values, false)?.map_err(failed)?;
     let mut hold_out = compare_at(&objective, &values, true)?;
-    let posterior = prediction::posterior(&objective, &answer);
+    let posterior = answer.explored.as_ref().map(|explored| sample(&explored.region, plan.budget.seed));
     if let (Some(posterior), Some(explored)) = (&posterior, &answer.explored) {
         prediction::of_fit(&objective, explored, posterior, &mut fit);
         if let Ok(hold_out) = &mut hold_out {
             prediction::of_hold_out(&objective, &answer, posterior, hold_out)?;
         }
     }
-    let asked = posterior.as_ref().filter(|_| plan.method == Method::Posterior || plan.has_law());
+    let asked =
+        posterior.as_ref().filter(|_| plan.method == Method::Posterior || plan.blocks.iter().any(|block| block.is_law));
     let calibrated = assembly::calibrated(&objective, &values)?;
     let mut outcome = assembly::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked);
     outcome.simulations = std::fs::read_dir(&objective.folder).map_or(0, Iterator::count);

@@ -3,7 +3,7 @@
 use super::folder::CalibrationFolder;
 use super::plan::{CalibrationPlan, DataBlock};
 use super::repeated::Repeated;
-use super::target::{Datum, ProfileLocation};
+use super::target::{Datum, ProfileLocation, Target};
 use crate::ToolError;
 use crate::case::{PreparedCase, Registry, Silent, share_out};
 use crate::evaluation::{self, EvaluationRecord};
@@ -69,7 +69,7 @@ impl Objective<'_> {
     pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Repeated>, ToolError> {
         let repeated: Vec<Vec<Question>> = questions.iter().map(|question| self.with_seeds(question)).collect();
         let mut records = self.ask_each(&repeated.concat())?.into_iter();
-        Ok(repeated.iter().map(|seeds| Repeated::new(records.by_ref().take(seeds.len()).collect())).collect())
+        Ok(repeated.iter().map(|seeds| Repeated(records.by_ref().take(seeds.len()).collect())).collect())
     }
 
     /// The question with every seed; once as it is where there is nothing to repeat.
@@ -181,29 +181,36 @@ impl Objective<'_> {
         series.into_values().map(in_order).collect()
     }
 
-    /// Predictions for some data from the records of all blocks; an error where a record lacks a datum's counterpart.
-    pub(super) fn predict<'d>(
+    /// Residuals of all fitted data by values in the answers of the fitted blocks `[-]`; none where a run fails or lacks a datum's
+    /// counterpart.
+    pub(super) fn residuals_of(
         &self,
-        data: impl Iterator<Item = &'d Datum>,
-        answer: impl Fn(usize) -> Option<&'d Repeated>,
-    ) -> Result<Vec<f64>, ToolError> {
-        data.map(|datum| {
-            let block = &self.plan.blocks[datum.block];
-            let wrong = |reason: String| self.counterpart(block, reason);
-            let answer = answer(datum.block).ok_or_else(|| wrong("no record".to_owned()))?;
-            if let Some(failure) = answer.failure() {
-                return Err(wrong(format!("no numbers: {failure}")));
-            }
-            let (value, own) = answer.predicted(&datum.target).map_err(wrong)?;
-            let label = || datum.target.label();
-            let other = || format!("`{}` in [{own}], but the data are in [{}]; convert them", label(), datum.unit);
-            let factor = unit::factor(&own, &datum.unit).ok_or_else(|| wrong(other()))?;
-            if !value.is_finite() {
-                return Err(wrong(format!("{value} for `{}`", label())));
-            }
-            Ok(value * factor)
-        })
-        .collect()
+        fitted: &[usize],
+        answers: &[Repeated],
+        value: impl Fn(&Repeated, &Target) -> Option<f64>,
+    ) -> Option<Vec<f64>> {
+        let residual = |datum: &Datum| {
+            let place = fitted.iter().position(|&block| block == datum.block)?;
+            let answer = Some(&answers[place]).filter(|answer| answer.failure().is_none())?;
+            Some(datum.residual(value(answer, &datum.target)?)).filter(|residual| residual.is_finite())
+        };
+        self.data_of(false).map(residual).collect()
+    }
+
+    /// Prediction for a datum from the answer of its block; an error where the record lacks the datum's counterpart.
+    pub(super) fn predict(&self, datum: &Datum, target: &Target, answer: Option<&Repeated>) -> Result<f64, ToolError> {
+        let wrong = |reason: String| self.counterpart(&self.plan.blocks[datum.block], reason);
+        let answer = answer.ok_or_else(|| wrong("no record".to_owned()))?;
+        if let Some(failure) = answer.failure() {
+            return Err(wrong(format!("no numbers: {failure}")));
+        }
+        let (value, own) = answer.predicted(target).map_err(wrong)?;
+        let other = || format!("`{}` in [{own}], but the data are in [{}]; convert them", target.label(), datum.unit);
+        let factor = unit::factor(&own, &datum.unit).ok_or_else(|| wrong(other()))?;
+        if !value.is_finite() {
+            return Err(wrong(format!("{value} for `{}`", target.label())));
+        }
+        Ok(value * factor)
     }
 
     pub(super) fn counterpart(&self, block: &DataBlock, reason: String) -> ToolError {
@@ -249,15 +256,11 @@ impl Evaluate for Objective<'_> {
         let questions: Vec<Question> =
             values.iter().flat_map(|values| fitted.iter().map(|&block| self.question(block, values))).collect();
         let answers = self.ask(&questions)?;
+        let mean = |own: &Repeated, target: &Target| own.predicted(target).ok().map(|(value, _)| value);
+        let root = |(place, residual): (usize, f64)| self.plan.loss.root(residual * self.weight(place));
         let of_point = |answers: &[Repeated]| {
-            let answer = |block: usize| fitted.iter().position(|&k| k == block).map(|place| &answers[place]);
-            let residual = |(place, datum): (usize, &Datum)| {
-                let answer = answer(datum.block).filter(|answer| answer.failure().is_none())?;
-                let (value, _) = answer.predicted(&datum.target).ok()?;
-                let residual = datum.residual(value) * self.weight(place);
-                Some(self.plan.loss.root(residual)).filter(|residual| residual.is_finite())
-            };
-            self.data_of(false).enumerate().map(residual).collect::<Option<Vec<f64>>>()
+            let residuals = self.residuals_of(&fitted, answers, mean)?;
+            Some(residuals.into_iter().enumerate().map(root).collect())
         };
         Ok(answers.chunks(fitted.len()).map(of_point).collect())
     }

@@ -163,11 +163,6 @@ impl CalibrationPlan {
         self.parameters.iter().zip(point).map(|(parameter, &u)| parameter.bounds.value(u)).collect()
     }
 
-    /// Whether a law is fitted to points.
-    pub(super) fn has_law(&self) -> bool {
-        self.blocks.iter().any(|block| block.is_law)
-    }
-
     /// Simulations that a calibration of as many parameters usually needs; 0 of choices, which are all queued at once.
     #[must_use]
     pub fn usual_evaluations(&self) -> usize {
@@ -186,14 +181,6 @@ impl CalibrationPlan {
         let screening = self.trajectories * (count + 1);
         // of what is held out: the best point and both ends of every interval
         (fitted * (searches * search + screening) + held_out * (1 + 2 * count)) * self.repeats.count
-    }
-
-    /// The method in words, with what every evaluation is the mean of.
-    pub(super) fn method_name(&self) -> String {
-        match self.repeats.count {
-            1 => self.method.name().to_owned(),
-            count => format!("{}, every evaluation the mean of {count} seeds", self.method.name()),
-        }
     }
 
     /// The start in the unit cube.

@@ -8,7 +8,6 @@ use super::objective::{Objective, Question};
 use super::repeated::Repeated;
 use super::result::DatumComparison;
 use crate::ToolError;
-use crate::inference::posterior::sample;
 use crate::inference::posterior::{Posterior, predictive};
 use crate::inference::{Answer, Emulator, Evaluated, Explored};
 
@@ -20,11 +19,6 @@ const HALF_WIDTH: f64 = 1.96;
 fn spread(residual: f64, [low, high]: [f64; 2]) -> f64 {
     let side = if residual > 0.0 { residual - low } else { high - residual };
     side.max(0.0) / HALF_WIDTH
-}
-
-/// Samples of the posterior, if there is a region.
-pub(super) fn posterior(objective: &Objective<'_>, answer: &Answer) -> Option<Posterior> {
-    answer.explored.as_ref().map(|explored| sample(&explored.region, objective.plan.budget.seed))
 }
 
 /// Gives every fitted datum its band.

@@ -3,16 +3,11 @@
 use super::target::Target;
 use crate::evaluation::EvaluationRecord;
 
-/// Answers to one question, one for every seed.
+/// Answers to one question, one for every seed, the first seed's first.
 #[derive(Debug, Clone)]
-pub(super) struct Repeated(Vec<EvaluationRecord>);
+pub(super) struct Repeated(pub(super) Vec<EvaluationRecord>);
 
 impl Repeated {
-    /// The answers of all seeds, the first seed's first.
-    pub(super) const fn new(records: Vec<EvaluationRecord>) -> Self {
-        Self(records)
-    }
-
     /// Reason for a failed run, if one failed.
     pub(super) fn failure(&self) -> Option<&str> {
         self.0.iter().find_map(|record| record.failure.as_deref())

@@ -67,10 +67,14 @@ pub struct ParameterEstimate {
 }
 
 impl CalibrationResult {
-    /// Origin of the intervals' ends: where runs scatter, χ² there is that of the emulator.
+    /// Whether ends of intervals are runs; where runs scatter, χ² there is that of the emulator.
+    pub(super) fn has_runs_at_ends(&self) -> bool {
+        self.parameters.iter().any(|found| found.rise != (None, None))
+    }
+
+    /// Origin of the ends of intervals.
     pub(super) fn ends_in_words(&self) -> &'static str {
-        let has_run = |found: &ParameterEstimate| found.rise != (None, None);
-        if self.parameters.iter().any(has_run) { "runs of the model" } else { "those of the emulator" }
+        if self.has_runs_at_ends() { "runs of the model" } else { "those of the emulator" }
     }
 }
 

@@ -1,6 +1,6 @@
 //! A point at which the model was evaluated.
 
-use super::super::chi_squared;
+use super::super::{LocalMinimum, chi_squared};
 use serde::{Deserialize, Serialize};
 
 /// The model at one point.
@@ -21,4 +21,10 @@ impl Evaluated {
         let chi_squared = residuals.as_deref().map(chi_squared);
         Self { point, residuals, chi_squared }
     }
+}
+
+/// The evaluated point of least χ²; none where the model failed at all.
+pub fn lowest(history: &[Evaluated]) -> Option<LocalMinimum> {
+    let worked = |own: &Evaluated| Some(LocalMinimum { point: own.point.clone(), chi_squared: own.chi_squared? });
+    history.iter().filter_map(worked).min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
 }

@@ -9,7 +9,7 @@ mod starts;
 mod trust_region;
 
 pub use design::search_design;
-pub use evaluated::Evaluated;
+pub use evaluated::{Evaluated, lowest};
 pub(super) use recorder::{Halt, Recorder};
 
 use super::descent::LocalMinimum;
@@ -209,14 +209,10 @@ pub fn continue_search<M: Evaluate>(
             design::run(&mut recorder, &points, &budget).map(|stopped| (stopped, None))
         }
     };
-    let of_best = |recorder: &Recorder<'_, M>| {
-        let best = recorder.best();
-        best.map(|(best, chi_squared)| LocalMinimum { point: best.point.clone(), chi_squared })
-    };
     let (mut outcome, first) = match first {
         Ok((stopped, Some(minimum))) => (Ok(stopped), Some(minimum)),
-        Ok((stopped, None)) => (Ok(stopped), of_best(&recorder)),
-        Err(halt) => (Err(halt), of_best(&recorder)),
+        Ok((stopped, None)) => (Ok(stopped), lowest(recorder.history())),
+        Err(halt) => (Err(halt), lowest(recorder.history())),
     };
     let mut minima: Vec<LocalMinimum> = first.into_iter().collect();
     let mut every_start = true;
@@ -288,7 +284,7 @@ fn descend_on<M: Evaluate>(
     minima: &mut Vec<LocalMinimum>,
     budget: &Budget,
 ) -> Result<Termination, Halt<M::Error>> {
-    let Some(start) = recorder.best().map(|(best, _)| best.point.clone()) else { return Err(Halt::NothingWorked) };
+    let start = lowest(recorder.history()).ok_or(Halt::NothingWorked)?.point;
     let descent = trust_region::run(recorder, &start, budget, &[])?;
     minima.retain(|minimum| !minimum.is_at(&descent.minimum.point) && !minimum.is_at(&start));
     minima.push(descent.minimum);

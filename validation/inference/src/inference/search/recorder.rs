@@ -1,6 +1,6 @@
 //! Record of the evaluations: each distinct point once, never more than the budget.
 
-use super::{Evaluated, LocalMinimum, SearchError, SearchResult, Termination};
+use super::{Evaluated, LocalMinimum, SearchError, SearchResult, Termination, lowest};
 use crate::inference::Evaluate;
 use crate::sampling::design;
 use std::collections::BTreeMap;
@@ -58,14 +58,6 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
         &self.history
     }
 
-    /// The evaluated point of least χ².
-    pub fn best(&self) -> Option<(&Evaluated, f64)> {
-        self.history
-            .iter()
-            .filter_map(|evaluated| evaluated.chi_squared.map(|chi_squared| (evaluated, chi_squared)))
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
     /// The residuals at each point, new ones in one batch. Of points beyond the budget none is evaluated, those before
     /// them are.
     pub fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Halt<M::Error>> {
@@ -113,9 +105,9 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
         }
         for batch in design::sobol(self.budget, start.len(), seed).chunks(RESCUE_BATCH) {
             let outcome = self.residuals(batch);
-            if let Some((best, _)) = self.best() {
-                let residuals = best.residuals.clone().unwrap_or_default();
-                return Ok((best.point.clone(), residuals));
+            if let Some(best) = lowest(&self.history) {
+                let residuals = self.residuals_at(&best.point)?.unwrap_or_default();
+                return Ok((best.point, residuals));
             }
             outcome?;
         }
@@ -135,8 +127,8 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
             Err(Halt::Model(error)) => return Err(SearchError::Model(error)),
             Err(Halt::Residuals(expected, found)) => return Err(SearchError::Residuals { expected, found }),
         };
-        match self.best().map(|(best, chi_squared)| (best.point.clone(), chi_squared)) {
-            Some((best, chi_squared)) => {
+        match lowest(&self.history) {
+            Some(LocalMinimum { point: best, chi_squared }) => {
                 minima.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
                 Ok(SearchResult { best, chi_squared, history: self.history, stopped, minima, every_start })
             }

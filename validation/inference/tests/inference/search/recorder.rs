@@ -2,6 +2,7 @@
 
 use crate::stand_in::RosenbrockModel;
 use bagnold_inference::inference::Evaluate;
+use bagnold_inference::inference::search::lowest;
 use bagnold_inference::internals::{Halt, Recorder};
 
 struct Counting(usize);
@@ -34,7 +35,7 @@ fn a_batch_is_cut_at_the_budget() {
     assert!(matches!(recorder.residuals(&points), Err(Halt::BudgetSpent)));
     assert_eq!(recorder.history().len(), 2);
     assert!(matches!(recorder.residuals(&points[..2]), Ok(list) if list.len() == 2));
-    assert_eq!(recorder.best().unwrap().1, 0.0625);
+    assert_eq!(lowest(recorder.history()).unwrap().chi_squared, 0.0625);
 }
 
 #[test]

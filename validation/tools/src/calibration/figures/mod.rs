@@ -79,17 +79,13 @@ fn profiles(outcome: &CalibrationResult) -> Option<Figure> {
         panel.line("profile", 0, points);
         panel.reference("95 %", [(ends.0, threshold), (ends.1, threshold)]);
         panel.points("best", 1, [(parameter.best, 0.0)]);
-        let ((below, above), open) = (parameter.rise, parameter.open);
-        let interval = parameter.interval.map(|(low, high)| [(low, below, open.0), (high, above, open.1)]);
-        let interval = || interval.into_iter().flatten();
-        let runs: Vec<_> = interval().filter_map(|(value, rise, _)| Some((value, rise?))).collect();
-        let emulated = interval().filter(|(_, rise, is_open)| rise.is_none() && !is_open);
-        let emulated: Vec<_> = emulated.map(|(value, ..)| (value, threshold)).collect();
-        for (label, colour, points) in [("end, a run", 3, runs), ("end, by the emulator", 4, emulated)] {
-            if !points.is_empty() {
-                panel.points(label, colour, points.into_iter().filter(|point| point.1 <= highest));
-            }
-        }
+        let (rise, open, are_runs) = (parameter.rise, parameter.open, outcome.has_runs_at_ends());
+        let emulated = |is_open: bool| (!are_runs && !is_open).then_some(threshold);
+        let interval = parameter.interval.map(|(low, high)| {
+            [(low, rise.0.or_else(|| emulated(open.0))), (high, rise.1.or_else(|| emulated(open.1)))]
+        });
+        let points = interval.into_iter().flatten().filter_map(|(value, rise)| Some((value, rise?)));
+        panel.points(&format!("ends: {}", outcome.ends_in_words()), 3, points.filter(|point| point.1 <= highest));
         if let Some(truth) = parameter.truth.filter(|truth| *truth >= ends.0 && *truth <= ends.1) {
             panel.points("truth", 2, [(truth, 0.0)]);
         }
