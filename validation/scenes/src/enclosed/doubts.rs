@@ -17,6 +17,9 @@ const LARGE: f64 = 10.0;
 const MOST_GRAINS: f64 = 1e5;
 /// Way of a body beyond a periodic side that is not told, in spacings `[-]`.
 const ON_THE_SIDE: f64 = 0.5;
+/// Rows of particles below which the end of a layer jumps along the front `[-]`, and what rounding may take from them.
+const LEAST_ROWS: f64 = 2.0;
+const ROUNDING: f64 = 1e-9;
 /// Farthest that one part of a scene reaches, over the farthest of all others `[-]`: a slip by 1000 is seen of parts down to a thirtieth.
 const FARTHEST: f64 = 30.0;
 
@@ -115,6 +118,23 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
                 .filter_map(|(side, name)| Some((format!("sides.{name}"), side.coordinate()?.abs())))
         });
         bodies.chain(walls).chain(inlets).chain(gauges).chain(sides).collect()
+    }
+
+    /// Fronts of less than two rows of particles, but for the gauges of the shipped scene, which nobody has asked for.
+    pub(super) fn thin_fronts(&self, shipped: &[S::Gauge]) -> impl Iterator<Item = String> {
+        let least = LEAST_ROWS * self.spacing;
+        self.gauges.iter().zip(self.measures()).filter_map(move |(gauge, measure)| {
+            let Measurand::Front(line) = measure else { return None };
+            let thickness = line.section / line.strip.map_or(1.0, |(_, half)| 2.0 * half);
+            let [own, more, finer] = [thickness, least, thickness / LEAST_ROWS].map(four_digits);
+            (thickness < (1.0 - ROUNDING) * least && !shipped.contains(gauge)).then(|| {
+                format!(
+                    "gauge `{}`: `thickness` is {own} m, less than two rows of particles, so that the front jumps by rows; \
+                     give {more} m or more, or `spacing` = {finer}",
+                    gauge.name()
+                )
+            })
+        })
     }
 
     /// Gauges that measure over more than the scene.
@@ -222,10 +242,10 @@ mod tests {
         (scene.walls, scene.inlets, scene.duration, scene.spacing) = (Vec::new(), Vec::new(), 30.0, 0.01);
         scene.sides = unbounded();
         scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (0.2, 0.2), velocity: (0.0, 0.0) }];
-        let gauge = "kind = \"front\"\nname = \"front\"\nfrom = [0.0, 0.0]\nto = [1.0, 0.0]\nthickness = 0.01";
+        let gauge = "kind = \"front\"\nname = \"front\"\nfrom = [0.0, 0.0]\nto = [1.0, 0.0]\nthickness = 0.02";
         scene.gauges = vec![toml::from_str(gauge).expect("a gauge")];
         change(&mut scene);
-        scene.doubtful_parts().join("\n")
+        scene.doubtful_parts().into_iter().chain(scene.thin_fronts(&[])).collect::<Vec<_>>().join("\n")
     }
 
     #[test]
@@ -240,10 +260,23 @@ mod tests {
             scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (200.0, 200.0), velocity: (0.0, 0.0) }];
         };
         assert!(doubts(body).contains("`bodies[0]` reaches 200 m"));
-        let gauge = |scene: &mut SceneFlow<Plane, 2>| {
+        assert!(doubts(front(10.0)).starts_with("gauge `front`: `thickness` is 10 m, more than the scene's 0.2 m"));
+    }
+
+    fn front(section: f64) -> impl Fn(&mut SceneFlow<Plane, 2>) {
+        move |scene| {
             let PlaneGauge::Front { thickness, .. } = &mut scene.gauges[0] else { unreachable!("a front") };
-            *thickness = 10.0;
-        };
-        assert!(doubts(gauge).starts_with("gauge `front`: `thickness` is 10 m, more than the scene's 0.2 m"));
+            *thickness = section;
+        }
+    }
+
+    #[test]
+    fn a_front_of_less_than_two_rows_is_told_with_the_thickness_to_take() {
+        assert_eq!(
+            doubts(front(0.015)),
+            "gauge `front`: `thickness` is 0.015 m, less than two rows of particles, so that the front jumps by rows; \
+             give 0.02 m or more, or `spacing` = 0.0075"
+        );
+        assert_eq!(doubts(front(0.1 * 0.2)), "");
     }
 }

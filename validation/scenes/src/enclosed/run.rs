@@ -9,7 +9,7 @@ use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind, first_behind};
 use super::{BodyPreparation, SceneFlow, SceneObservation, series, shapes};
 use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, StartState};
-use crate::case::{Flow, ParameterError, Progress, RunCost, cost};
+use crate::case::{Flow, ParameterError, Progress, RunCost, RunList, Tier, cost};
 use crate::checkpoint::Checkpoints;
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
@@ -133,7 +133,8 @@ where
     }
 
     fn doubts(&self) -> Vec<String> {
-        self.doubtful_parts().into_iter().chain(self.doubtful_yield()).chain(self.costly_viscosity()).collect()
+        let doubts = self.doubtful_parts().into_iter().chain(self.doubtful_yield()).chain(self.costly_viscosity());
+        doubts.chain(self.thin_fronts(&RunList::<Self>::of_tier(Tier::Quick).base.gauges)).collect()
     }
 
     fn variant(&self) -> Variant {

@@ -24,7 +24,7 @@ pub enum PlaneGauge {
         from: PlaneVector,
         /// End of the line x, y `[m]`.
         to: PlaneVector,
-        /// Thickness `[m]`.
+        /// Thickness `[m]`; below two spacings the front jumps by rows. An upright face reads half a spacing too far.
         #[schemars(transform = positive("give it in metres, such as two spacings"))]
         thickness: f64,
     },

@@ -24,7 +24,7 @@ pub enum SpaceGauge {
         from: SpaceVector,
         /// End of the line x, y, z `[m]`.
         to: SpaceVector,
-        /// Thickness `[m]`.
+        /// Thickness `[m]`; below two spacings the front jumps by rows. An upright face reads half a spacing too far.
         #[schemars(transform = positive("give it in metres, such as two spacings"))]
         thickness: f64,
         /// Width across the line and gravity, half of it to either side `[m]`: as wide as the channel, or less.

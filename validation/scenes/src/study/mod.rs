@@ -233,7 +233,7 @@ impl Study {
             for outline in &outlines {
                 for curve in whole.curves(outline).map_err(within)? {
                     let Some(measured) = check.read.measured() else { continue };
-                    let points = probe::in_units_of(measured, column, &curve)?;
+                    let points = measured.in_units(probe::unit_of(&curve.over), probe::unit_of(&column.column))?;
                     let times = points.iter().map(|point| point[0]).filter(|time| compared.contains(time));
                     last = times.fold(last, f64::max);
                     end = curve.points.last().map_or(end, |point| point.0.max(end));

@@ -4,7 +4,6 @@
 use super::file::{Distance, Reduction};
 use crate::case::CaseResult;
 use crate::input::{FieldError, is_same_heading, nearest, parted};
-use crate::measured::Measurements;
 use crate::metric::{Metric, Variant};
 use crate::output::Table;
 use crate::statistics::{Extrapolation, interpolated, linear_fit};
@@ -156,6 +155,12 @@ impl RunCurve {
         interpolated(&self.resolution, place, (Extrapolation::Nothing, Extrapolation::Nothing)).unwrap_or(0.0)
     }
 
+    /// Uncertainty of measured points within a window, each with the resolution there; none where the distance knows no uncertainty.
+    pub(super) fn beside_rows(&self, measured: &[[f64; 3]], (from, to): (f64, f64), by: Distance) -> Vec<(f64, f64)> {
+        let meant = measured.iter().filter(|[x, ..]| by == Distance::Residual && *x >= from && *x <= to);
+        meant.map(|[x, _, own]| (*own, self.resolution_at(*x))).collect()
+    }
+
     /// The first place at which the value reaches a level, from below or from above; none if it does not. What comes to a place where
     /// nothing was comes from zero, and reaches the level there at the earliest.
     fn reaches(&self, level: f64) -> Option<f64> {
@@ -202,15 +207,6 @@ pub(super) fn metrics<'a>(result: &'a CaseResult, name: &str) -> Result<Vec<&'a 
         return Err(FieldError::new("metric", format!("\"{name}\""), &rule, &did_you_mean(name, &names)));
     }
     Ok(found)
-}
-
-/// Measured points in the units of a curve.
-pub(super) fn in_units_of(
-    measured: &Measurements,
-    column: &ColumnWindow,
-    curve: &RunCurve,
-) -> Result<Vec<[f64; 3]>, FieldError> {
-    measured.in_units(unit_of(&curve.over), unit_of(&column.column))
 }
 
 fn did_you_mean(wanted: &str, known: &[&str]) -> String {
@@ -336,6 +332,9 @@ mod tests {
         let coarse = RunCurve { resolution: vec![(0.0, 0.4), (1.0, 0.4)], ..curve.clone() };
         let whole = (f64::NEG_INFINITY, f64::INFINITY);
         assert!((coarse.distance(&measured, whole, Distance::Residual) - 0.5).abs() < 1e-12);
+        let rows = coarse.beside_rows(&measured, (0.5, 2.0), Distance::Residual);
+        assert_eq!(rows, [(0.1, 0.4), (0.1, 0.4)]);
+        assert_eq!(coarse.beside_rows(&measured, whole, Distance::Mean), []);
         let square: f64 = measured.iter().map(|point| point[1] * point[1]).sum::<f64>() / 3.0;
         assert!((distance(Distance::RelativeL2) - 100.0 * 0.2 / square.sqrt()).abs() < 1e-12);
     }

@@ -6,6 +6,7 @@ use super::probe::{self, ColumnWindow, RunCurve};
 use super::{Study, file};
 use crate::case::CaseResult;
 use crate::input::FieldError;
+use crate::measured::coarse_in_words;
 use crate::metric::{Metric, Uncertainty, Value, Variant};
 use crate::statistics::{grouped, log_log_slope};
 use bagnold_number::four_digits;
@@ -88,7 +89,10 @@ impl Study {
                             file::Distance::RelativeL2 => "%",
                             file::Distance::Largest | file::Distance::Mean => probe::unit_of(&column.column),
                         };
-                        readings.push(Reading::of_column(of_run(&curve.run), value, unit, column, curve));
+                        let rows = curve.beside_rows(&points, column.window, *distance);
+                        let coarse = coarse_in_words(&rows, probe::unit_of(&column.column));
+                        let reading = Reading::of_column(of_run(&curve.run), value, unit, column, curve);
+                        readings.push(Reading { remark: reading.remark.clone().or(coarse), ..reading });
                     }
                 }
                 CheckedQuantity::Order { .. } | CheckedQuantity::Difference { .. } => {}
