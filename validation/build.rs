@@ -60,6 +60,9 @@ fn main() {
     for (name, file) in &texts(&package.join("harness"), &["reference-data"], &["csv"]) {
         add(&mut build, &format!("reference-data/{name}"), &std::fs::read(file).unwrap_or_default());
     }
+    for (name, file) in &texts(&package.join("cases"), &["states"], &["csv"]) {
+        add(&mut build, &format!("states/{name}"), &std::fs::read(file).unwrap_or_default());
+    }
     // no result depends on the plans
     embed("studies", &texts(&package, &["studies"], &["toml"]));
     let league = texts(&package, &["league"], &DECKS);

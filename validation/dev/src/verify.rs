@@ -137,6 +137,15 @@ mod tests {
     }
 
     #[test]
+    fn kept_states_are_of_the_present_bits() {
+        let list = read(None).expect("a good list");
+        let states = include_str!("../../cases/states/bed-load.toml");
+        let run = list.runs.iter().find(|run| run.case == "bed-load").expect("a short run");
+        let remedy = "renew them by the commands at the head of validation/cases/states/bed-load.toml";
+        assert!(states.contains(&run.state_hash), "kept states are older than the bits of bed-load; {remedy}");
+    }
+
+    #[test]
     fn every_case_has_a_short_run_that_takes_seconds() {
         let list = read(None).expect("a good list");
         let mut named: Vec<&str> = list.runs.iter().map(|run| run.case.as_str()).collect();

@@ -44,7 +44,8 @@ use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Recorded};
 use crate::setup::Lattice;
 use bagnold_solver::incompressible::{
-    Bed, IncompressibleSimulation, IncompressibleSnapshot, ProjectionNumerics, Sediment, SolidFraction, Turbulence,
+    Bed, IncompressibleSimulation, IncompressibleSnapshot, ParticleSet, ProjectionNumerics, Sediment, SolidFraction,
+    Turbulence,
 };
 use bagnold_solver::run::SceneError;
 use probe::ChannelProbe;
@@ -92,6 +93,8 @@ pub struct Channel<'a> {
     pub seed: u64,
     /// Initial velocity of the fluid along the floor `[m/s]` at a height `[m]`.
     pub velocity: &'a (dyn Fn(f64) -> f64 + Sync),
+    /// Particles of the fluid in place of those of the lattice, where a run starts from another's state.
+    pub particles: Option<ParticleSet<2>>,
     /// The sediment, if there is one.
     pub sediment: Option<Sediment<2>>,
     /// How water and sediment share the space.
@@ -125,6 +128,7 @@ impl<'a> Channel<'a> {
             jitter: 0.0,
             seed: 0,
             velocity,
+            particles: None,
             sediment: None,
             solid_fraction: SolidFraction::Overlapping,
             numerics: ProjectionNumerics::default(),

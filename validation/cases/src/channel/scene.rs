@@ -11,12 +11,15 @@ impl Channel<'_> {
     #[must_use]
     pub fn scene(&self) -> IncompressibleScene<2> {
         let lattice = &self.fluid;
-        // the exact velocity of the displaced place: a start that the flow can keep
-        let position = lattice.displaced(self.jitter, self.seed);
-        let velocity = position.iter().map(|x| Vector::<2>::new((self.velocity)(x[1]), 0.0)).collect();
+        let displaced = || {
+            // the exact velocity of the displaced place: a start that the flow can keep
+            let position = lattice.displaced(self.jitter, self.seed);
+            let velocity = position.iter().map(|x| Vector::<2>::new((self.velocity)(x[1]), 0.0)).collect();
+            ParticleSet { position, velocity }
+        };
         IncompressibleScene {
             fluid: Fluid {
-                particles: ParticleSet { position, velocity },
+                particles: self.particles.clone().unwrap_or_else(displaced),
                 wall: lattice.below(wall_rows(self.numerics.smoothing_ratio)).sites().collect(),
                 spacing: lattice.spacing,
                 density: self.density,

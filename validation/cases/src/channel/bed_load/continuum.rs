@@ -2,7 +2,8 @@
 //!
 //! Its law of friction is that of the layer, which knows no other: it is part of the closures and cannot be chosen.
 
-use super::flow::{BedLoadFlow, BedLoadFormulation, Continuum, LAYER_CELL};
+use super::flow::{BedLoadFlow, BedLoadFormulation, Continuum, LAYER_CELL, StartState};
+use super::kept::KeptState;
 use crate::case::ParameterError;
 use crate::channel::Channel;
 use crate::checkpoint::is_interrupted;
@@ -44,7 +45,8 @@ impl BedLoadFlow {
         if self.dilates() { self.continuum.sediment_refinement as usize } else { 1 }
     }
 
-    fn dilates(&self) -> bool {
+    /// Whether grains dilate where they may move.
+    pub(super) fn dilates(&self) -> bool {
         self.formulation == BedLoadFormulation::Dilating
     }
 
@@ -59,6 +61,10 @@ impl BedLoadFlow {
         let one_state = |layer: BedLoadLayer| {
             layer.steady_states_unless(&is_interrupted).and_then(SteadyStates::single).map_err(refused)
         };
+        if self.rests() {
+            let bed = SolidFractionProfile::flat_bed(closures.largest_fraction).map_err(refused)?;
+            return one_state(layer(GrainMotion::Resting(bed)));
+        }
         let dilating = one_state(layer(GrainMotion::Dilating))?;
         if self.formulation == BedLoadFormulation::Porous {
             return one_state(layer(GrainMotion::Resting(SolidFractionProfile::of_cells(&dilating))));
@@ -79,10 +85,17 @@ impl BedLoadFlow {
         let columns = (continuum.length / spacing).round() as usize;
         let fluid = Lattice { spacing, rows: rows as usize, columns, bottom: -continuum.bed_depth };
         let stratification = self.stratification(layer);
+        let mut sediment = self.sediment(fluid, layer);
+        let mut particles = None;
+        if let (StartState::Kept, Some(KeptState { water, grains })) = (self.continuum.start_state, KeptState::of(self))
+        {
+            (particles, sediment.particles) = (Some(water), grains);
+        }
         Channel {
             turbulence: Turbulence::Stratified,
             bed: Bed::NoSlip(fluid.bottom),
-            sediment: Some(self.sediment(fluid, layer)),
+            particles,
+            sediment: Some(sediment),
             solid_fraction: if self.dilates() {
                 solver::SolidFraction::Averaged(stratification)
             } else {

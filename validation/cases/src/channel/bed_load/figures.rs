@@ -46,6 +46,7 @@ fn label(run: &BedLoadFlow) -> String {
         BedLoadFormulation::AtRest => (PARTICLES, ", held"),
         BedLoadFormulation::Porous => ("fixed grains", ""),
         BedLoadFormulation::Frozen => (FROZEN, ""),
+        BedLoadFormulation::Dilating if run.rests() => ("held grains", ""),
         BedLoadFormulation::Dilating => (DILATING, ""),
     };
     let mut label = format!("{model}, {}{as_what}", percent(run.slope));
@@ -68,9 +69,8 @@ fn of_kind(records: &[BedLoadRecord], kind: BedLoadFormulation, slope: f64) -> O
 
 /// Runs of the paper's flow on a slope, with names and colours: one particle a grain, and grains that dilate from the 1-D layer's water.
 fn beside_paper(records: &[BedLoadRecord], slope: f64) -> impl Iterator<Item = (&'static str, usize, &BedLoadRecord)> {
-    let is_dilating = move |(run, _): &&BedLoadRecord| {
-        run.formulation == BedLoadFormulation::Dilating && run.slope == slope && run.starts_as_usual()
-    };
+    let is_dilating =
+        move |(run, _): &&BedLoadRecord| run.dilates() && !run.rests() && run.slope == slope && run.starts_as_usual();
     let grains = of_kind(records, BedLoadFormulation::Stabilised, slope).map(|record| (PARTICLES, 0, record));
     let dilating = records.iter().find(is_dilating).map(|record| (DILATING, 1, record));
     grains.into_iter().chain(dilating)
@@ -243,8 +243,8 @@ fn over_time(records: &[BedLoadRecord]) -> Figure {
     }
     Figure::new(
         "over-time",
-        "Mean water velocity U relative to U_clear, the depth average of the logarithmic law, and transport rate q*, \
-         over time. Start: initial velocity relative to this law or, for dilating grains, to the 1-D layer.",
+        "Mean water velocity U over the logarithmic law's depth mean U_clear, and transport rate q*, over time. A start is the \
+         initial velocity over that law's, or over that of the 1-D layer or the kept state where grains dilate.",
         vec![velocity, rate],
     )
 }

@@ -1,5 +1,6 @@
 //! The flow: water over a bed that moves.
 
+use super::kept::KeptState;
 use crate::case::ParameterError;
 use crate::channel::TurbulenceClosure;
 use crate::reference::bed_load::TransportFormula;
@@ -100,6 +101,16 @@ pub struct GrainParticles {
     pub numerics: ProjectionNumerics,
 }
 
+/// State from which grains as volume fractions start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StartState {
+    /// A bed that has not dilated, in the flow of the 1-D layer.
+    Layer,
+    /// The last state of the paper tier on this slope.
+    Kept,
+}
+
 /// Grains as volume fractions, closures of the literature.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Continuum {
@@ -112,8 +123,10 @@ pub struct Continuum {
     pub length: f64,
     /// Spacing of the particles of both phases `[m]`; `frozen` takes a smaller one where `largest_spacing` says so.
     pub spacing: f64,
-    /// Velocities at the start over those of the 1-D layer `[-]`.
-    #[schemars(transform = between(0.0, 3.0, "1 starts as the 1-D layer flows"))]
+    /// State at the start.
+    pub start_state: StartState,
+    /// Velocities at the start over those of that state `[-]`.
+    #[schemars(transform = between(0.0, 3.0, "1 starts as the 1-D layer or the kept state flows"))]
     pub start: f64,
     /// Closures of particles and of the layer.
     pub closures: Closures,
@@ -215,6 +228,7 @@ impl Default for BedLoadFlow {
                 held_depth: 0.004,
                 length: 0.0085,
                 spacing: 1e-3,
+                start_state: StartState::Layer,
                 start: 1.0,
                 closures: Closures::default(),
                 drag_diameter: 1.0,
@@ -277,9 +291,15 @@ impl BedLoadFlow {
 
     fn check_continuum(&self) -> Result<(), ParameterError> {
         let continuum = &self.continuum;
-        let remedy = "hold less than the whole bed";
-        rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
+        if !self.rests() {
+            let remedy = "hold less than nine tenths of the bed, or all of it where grains dilate";
+            rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
+        }
         rules::refuse("continuum.closures", continuum.closures.problem())?;
+        if continuum.start_state == StartState::Kept && KeptState::of(self).is_none() {
+            let (rule, remedy) = ("layer unless a state of this slope and set-up is kept", "start from the layer");
+            return Err(ParameterError::field("continuum.start_state", "kept", rule, remedy));
+        }
         let Closures { mixing_length, karman, turbulent_schmidt, .. } = continuum.closures;
         if mixing_length != MixingLengthClosure::Integral {
             let remedy = "the particles know no other; bed-load-1d compares all";
@@ -314,6 +334,11 @@ impl BedLoadFlow {
         has_pairs.then_some(self.continuum.numerics.pair_law)
     }
 
+    /// Whether all grains of a bed that could dilate are held.
+    pub(super) fn rests(&self) -> bool {
+        self.dilates() && self.continuum.held_depth == self.continuum.bed_depth
+    }
+
     /// Whether grains as volume fractions are judged; runs of other pair laws show what a law does.
     pub(super) fn is_judged(&self) -> bool {
         self.pair_law().is_none_or(|law| law == PairLaw::PairRateMeanLoad)
@@ -345,7 +370,7 @@ impl BedLoadFlow {
 
     /// Whether a run differs from this one in its start alone.
     pub(super) fn has_another_start_than(&self, other: &Self) -> bool {
-        let alike = |run: &Self| (run.formulation, run.pair_law());
+        let alike = |run: &Self| (run.formulation, run.pair_law(), run.rests(), run.continuum.start_state);
         let lengths = |run: &Self| (run.slope, run.duration, run.spacing());
         alike(self) == alike(other) && lengths(self) == lengths(other) && self.start() != other.start()
     }

@@ -5,6 +5,7 @@ mod figures;
 mod fit;
 mod flow;
 mod foreign;
+mod kept;
 mod metrics;
 mod observation;
 mod profiles;
@@ -38,8 +39,9 @@ impl Case for BedLoad {
         two slopes. `continuum` resolves the grain layer by its solid fraction, with closures from the literature, \
         in three stages: fixed grains, moving grains at a given fraction, dilating grains. `paper` is the printed \
         set-up. The run `at-rest` holds all grains fixed; a second start differs in its velocity.\n\n\
-        Judged. Conservation in all tiers. `continuum` against the 1-D layer of `bed-load-1d` (verification). In the \
-        paper tier, transport of `stabilised` on the third slope, and whether the two starts still differ \
+        Judged. Conservation in all tiers. `continuum` against the 1-D layer of `bed-load-1d` (verification). At the \
+        quick tier, pairs of runs start slower and faster than a kept state and are judged at the flow between them \
+        that would not change. In the paper tier, transport of `stabilised` on the third slope, and whether the two starts still differ \
         (`forgets_start`).\n\n\
         Observed only. All metrics of `paper`, which fails in documented ways. Transport and profiles of runs that \
         still depend on their start.";
@@ -64,6 +66,7 @@ impl Case for BedLoad {
             let variant = run.variant();
             let mut tables = channel::tables(&variant, &record.data.channel);
             tables.extend(profiles::grain_table(&variant, &record.data));
+            tables.extend(kept::table(run, &record.frames));
             tables
         };
         records.iter().flat_map(of_run).collect()

@@ -55,6 +55,7 @@ impl Flow for BedLoadFlow {
             (BedLoadFormulation::Porous | BedLoadFormulation::Frozen | BedLoadFormulation::Dilating, _) => {
                 let laws = self.pair_law().into_iter();
                 let named = laws.fold(named, |named, law| named.and("pair_law", pair_law_name(law)));
+                let named = if self.rests() { named.and("grains", "held") } else { named };
                 named.and("start", self.start()).and("spacing", self.spacing())
             }
         }

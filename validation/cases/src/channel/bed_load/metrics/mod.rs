@@ -1,20 +1,21 @@
 //! How the runs are judged: each by its formulation, all together by statements and fits.
 
 mod continuum;
+mod kept;
 mod statements;
 
 use super::BedLoadRecord;
 use super::fit::{HeldOut, held_out};
-use super::flow::{BedLoadFlow, BedLoadFormulation};
+use super::flow::{BedLoadFlow, BedLoadFormulation, StartState};
 use super::observation::BedLoadObservation;
 use super::profiles;
 use crate::case::Flow;
 use crate::channel;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Recorded;
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 use crate::shared::transport_in_units;
-use crate::statistics::mean;
+use crate::statistics::{FittedValue, mean};
 
 quantities! {
     [channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL]
@@ -28,6 +29,7 @@ quantities! {
         "forgets_start", "-",
         "mean stream velocity: difference between runs from two starts, over that of the starts",
     ),
+    STEADY_START: verified("steady_start", "-", "start over the kept state at which the stream would not change"),
     END_TIME: verified("end_time", "s", "end time of the printed set-up"),
     HIGHEST_PARTICLE: verified("highest_particle", "h", "greatest height of a particle of the printed set-up"),
     LAST_TRANSPORT: validated("last_transport", "-", "q* at the end of the printed set-up"),
@@ -82,6 +84,7 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Metric> {
     };
     let mut metrics: Vec<Metric> = records.iter().flat_map(of_run).collect();
     metrics.extend(records.iter().filter_map(|(run, _)| forgets_start(records, run)));
+    metrics.extend(records.iter().flat_map(|record| kept::of_pair(records, record)));
     statements::say_what_is_missing(records);
     metrics.extend(statements::growth(records));
     let held_out = held_out(records);
@@ -175,7 +178,9 @@ pub(super) fn has_forgotten(records: &[BedLoadRecord], run: &BedLoadFlow) -> boo
 
 /// Memory of the start, a gate for each pair of runs, under the name of the faster start.
 fn forgets_start(records: &[BedLoadRecord], run: &BedLoadFlow) -> Option<Metric> {
-    let (_, share) = memory(records, run).filter(|(other, _)| run.start() > other.start())?;
+    // pairs from a kept state are judged before they have met
+    let is_long = run.continuum.start_state == StartState::Layer;
+    let (_, share) = memory(records, run).filter(|(other, _)| is_long && run.start() > other.start())?;
     Some(
         FORGETS_START
             .of(&run.variant(), share)
@@ -208,6 +213,20 @@ fn printed((run, record): &BedLoadRecord) -> Vec<Metric> {
     ]
 }
 
+/// Curvatures of the grains' profile above and below the top of the bed.
+fn curvatures(variant: &Variant, judged: bool, estimate: impl Fn(bool) -> FittedValue) -> [Metric; 2] {
+    let sides =
+        [(GRAIN_CURVATURE_ABOVE, true, Limit::AtMost(0.0)), (GRAIN_CURVATURE_BELOW, false, Limit::AtLeast(0.0))];
+    sides.map(|(quantity, above, limit)| {
+        let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
+        let curvature = channel::observed(quantity, variant, estimate(above), 1.0);
+        curvature.against(None, source, Confidence::Medium).gated_by(
+            judged.then_some(limit),
+            "the paper states only the sign; profiles with too few points for a curvature fail",
+        )
+    })
+}
+
 /// Metrics of the grains; of flows that have forgotten their start the shape of their profile is judged by the paper's statement.
 fn grains(run: &BedLoadFlow, data: &BedLoadObservation, judged: bool) -> Vec<Metric> {
     let variant = run.variant();
@@ -226,16 +245,8 @@ fn grains(run: &BedLoadFlow, data: &BedLoadObservation, judged: bool) -> Vec<Met
         }
     };
     let mut metrics = values.map(in_millimetres).to_vec();
-    let curvatures =
-        [(GRAIN_CURVATURE_ABOVE, true, Limit::AtMost(0.0)), (GRAIN_CURVATURE_BELOW, false, Limit::AtLeast(0.0))];
-    metrics.extend(curvatures.map(|(quantity, above, limit)| {
-        let estimate = data.sediment.estimate(|points| profiles::grain_curvature(run, points, above));
-        let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
-        channel::observed(quantity, &variant, estimate, 1.0).against(None, source, Confidence::Medium).gated_by(
-            judged.then_some(limit),
-            "the paper states only the curvature's sign; profiles with too few points fail",
-        )
-    }));
+    let curvature = |above: bool| data.sediment.estimate(|points| profiles::grain_curvature(run, points, above));
+    metrics.extend(curvatures(&variant, judged, curvature));
     let drag = data.drag_profile();
     let peak = drag
         .iter()

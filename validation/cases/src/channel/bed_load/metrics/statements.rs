@@ -4,9 +4,8 @@ use super::*;
 use crate::channel::ProfilePoint;
 use crate::channel::bed_load::flow::FITTED;
 use crate::channel::bed_load::profiles::LAYERS;
-use crate::metric::{MetricKind, Value};
+use crate::metric::MetricKind;
 use crate::reference::bed_load::LAYER_STATEMENTS;
-use crate::statistics::FittedValue;
 use bagnold_solver::material::rheology::Rheology;
 
 /// The gentler slope that the paper makes statements of, whose profile and transport are judged `[-]`.
