@@ -1,42 +1,23 @@
 //! States at the resolution of the paper tier that runs of the quick tier start from; `states/bed-load.toml` makes them.
 
 use super::flow::{BedLoadFlow, Continuum, StartState};
-use crate::case::Flow;
 use crate::observation::Frame;
 use crate::output::Table;
 use bagnold_solver::incompressible::ParticleSet;
 use bagnold_solver::vector::Vector;
 
-/// Slopes `[-]` with the particles over moving and over held grains.
-const STATES: [(f64, [&str; 2]); 3] = [
-    (
-        0.02,
-        [
-            include_str!("../../../states/state-formulation-dilating-slope-0.02-start-1-spacing-0.001.csv"),
-            include_str!("../../../states/state-formulation-dilating-slope-0.02-grains-held-start-1-spacing-0.001.csv"),
-        ],
-    ),
-    (
-        0.03,
-        [
-            include_str!("../../../states/state-formulation-dilating-slope-0.03-start-1-spacing-0.001.csv"),
-            include_str!("../../../states/state-formulation-dilating-slope-0.03-grains-held-start-1-spacing-0.001.csv"),
-        ],
-    ),
-    (
-        0.05,
-        [
-            include_str!("../../../states/state-formulation-dilating-slope-0.05-start-1-spacing-0.001.csv"),
-            include_str!("../../../states/state-formulation-dilating-slope-0.05-grains-held-start-1-spacing-0.001.csv"),
-        ],
-    ),
+/// Slope `[-]`, whether grains are held, and particles of each state.
+const STATES: [(f64, bool, &str); 6] = [
+    (0.02, false, include_str!("../../../states/state-0.02-moving.csv")),
+    (0.02, true, include_str!("../../../states/state-0.02-held.csv")),
+    (0.03, false, include_str!("../../../states/state-0.03-moving.csv")),
+    (0.03, true, include_str!("../../../states/state-0.03-held.csv")),
+    (0.05, false, include_str!("../../../states/state-0.05-moving.csv")),
+    (0.05, true, include_str!("../../../states/state-0.05-held.csv")),
 ];
 
 /// Depths of water, bed and held grains, period and spacing of the states `[m]`, and their refinement `[-]`.
 const SET_UP: [f64; 6] = [0.046, 0.016, 0.004, 0.01, 1e-3, 2.0];
-
-/// Columns of a table of particles; the phase of water is 0.
-const COLUMNS: [&str; 5] = ["phase", "x [m]", "z [m]", "u [m/s]", "w [m/s]"];
 
 /// Free particles of both phases as a run starts.
 #[derive(Debug, Clone, Default)]
@@ -48,13 +29,10 @@ pub(super) struct KeptState {
 impl KeptState {
     /// The state that a run starts from, its velocities times the run's factor; none where none is kept.
     pub(super) fn of(run: &BedLoadFlow) -> Option<Self> {
-        let Continuum { bed_depth, held_depth, length, spacing, sediment_refinement, .. } = run.continuum;
-        let held_depth = if run.rests() { SET_UP[2] } else { held_depth };
-        let set_up = [run.depth, bed_depth, held_depth, length, spacing, f64::from(sediment_refinement)];
-        let is_kept = run.dilates() && set_up == SET_UP;
-        let (_, tables) = STATES.iter().find(|(slope, _)| is_kept && *slope == run.slope)?;
+        let key = (run.slope, run.rests());
+        let (.., table) = STATES.iter().find(|(slope, held, _)| (*slope, *held) == key && is_set_up(run))?;
         let mut state = Self::default();
-        for row in tables[usize::from(run.rests())].lines().skip(1) {
+        for row in table.lines().skip(1) {
             let mut cells = row.split(',').map_while(|cell| cell.parse().ok());
             let phase = if cells.next()? == 0.0 { &mut state.water } else { &mut state.grains };
             phase.position.push(Vector::<2>::new(cells.next()?, cells.next()?));
@@ -64,17 +42,25 @@ impl KeptState {
     }
 }
 
+/// Whether a run has the set-up of the states.
+fn is_set_up(run: &BedLoadFlow) -> bool {
+    let Continuum { bed_depth, held_depth, length, spacing, sediment_refinement, .. } = run.continuum;
+    let held_depth = if run.rests() { SET_UP[2] } else { held_depth };
+    run.dilates() && [run.depth, bed_depth, held_depth, length, spacing, f64::from(sediment_refinement)] == SET_UP
+}
+
 /// The last state of a run that others can start from, to 10 nm and 1 µm/s.
 pub(super) fn table(run: &BedLoadFlow, frames: &[Frame]) -> Option<Table> {
-    let is_source = run.dilates() && run.continuum.start_state == StartState::Layer;
+    let is_source = is_set_up(run) && run.continuum.start_state == StartState::Layer && run.starts_as_usual();
     let last = frames.last().filter(|_| is_source)?;
-    let rounded = |values: &[f64; 3], parts: f64| [0, 1].map(|axis| (values[axis] * parts).round() / parts);
+    let rounded = |value: f64, parts: f64| (value * parts).round() / parts;
     let of_particle = |((place, velocity), phase): ((&[f64; 3], &[f64; 3]), &f64)| {
-        let [[x, z], [u, w]] = [rounded(place, 1e8), rounded(velocity, 1e6)];
-        vec![*phase, x, z, u, w]
+        let [x, z] = [place[0], place[1]].map(|place| rounded(place, 1e8));
+        vec![*phase, x, z, rounded(velocity[0], 1e6), rounded(velocity[1], 1e6)]
     };
     let rows = last.position.iter().zip(last.vector("velocity")).zip(last.scalar("phase")).map(of_particle);
-    Some(Table::of_rows(format!("state-{}", run.variant().file_name()), &COLUMNS, rows))
+    let name = format!("state-{}-{}", run.slope, if run.rests() { "held" } else { "moving" });
+    Some(Table::of_rows(name, &["phase", "x [m]", "z [m]", "u [m/s]", "w [m/s]"], rows))
 }
 
 #[cfg(test)]

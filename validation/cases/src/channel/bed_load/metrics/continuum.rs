@@ -1,7 +1,6 @@
 //! Grains as volume fractions against the 1-D layer of the same closures.
 
 use super::*;
-use crate::reference::one_dimension::bed_load::LayerState;
 
 /// Averaging time from which on a run beside the 1-D layer is judged whether it still changes or not `[s]`.
 const JUDGED_FROM: f64 = 1.5;
@@ -22,96 +21,74 @@ fn is_settled(run: &BedLoadFlow, data: &BedLoadObservation) -> bool {
 pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
     let (run, Recorded { data, .. }) = record;
     let variant = run.variant();
-    let dilating = run.dilates();
-    let Some(layer) = &data.layer else { return Vec::new() };
     let mut metrics = vec![channel::particles_lost(&variant, &record.1.clone().map(|data| data.channel))];
     metrics.extend(common(record, forgotten));
-    if run.continuum.start_state == StartState::Kept {
-        // one of a pair, or the bed at rest that it is compared with
-        return metrics;
-    }
-    metrics.push(momentum_residual(&variant, data.channel.momentum.residual()));
-    let settled = run.starts_as_usual() && is_settled(run, data);
-    let profile = &data.channel.profile;
-    let compared = Compared {
-        water_rms: profile.estimate(|points| profiles::fluid_rms(run, points, layer)),
-        water_mean: profile.estimate(|points| profiles::fluid_mean(run, points, layer)),
-        grain_rms: data.sediment.estimate(|points| profiles::grain_rms(run, points, layer)),
-        drag: profiles::drag_ratio(&data.drag_profile(), layer),
-        transport: data.mean_transport(),
-    };
-    metrics.extend(beside_layer(
-        run,
-        &variant,
-        layer,
-        compared,
-        (run.is_judged() && (forgotten || settled), forgotten),
-    ));
-    if run.formulation != BedLoadFormulation::Porous && !run.rests() {
-        metrics.extend(grains(run, data, forgotten && dilating));
+    // a run from a kept state is one of a pair, or the bed at rest that the pair is compared with
+    if run.continuum.start_state == StartState::Layer {
+        let judged = run.is_judged() && (forgotten || (run.starts_as_usual() && is_settled(run, data)));
+        metrics.extend(beside_layer(run, data, &variant, (judged, forgotten)));
     }
     metrics
 }
 
-/// The residual of the momentum's balance.
-pub(super) fn momentum_residual(variant: &Variant, residual: f64) -> Metric {
-    let source = "change of momentum = gravity − what held grains and floor take; particles that cross a gradient of φ \
-                  change the share of their mass that counts";
-    channel::MOMENTUM_RESIDUAL.of(variant, residual).exactly(0.0, source).with_snapshot_tolerance(0.1, 1e-3).gated(
-        Limit::Within(-0.01, 0.01),
-        "0.01 for particles that cross a gradient of φ; drag and pressure only exchange momentum between water and grains",
-    )
-}
-
-/// What a steady flow is compared with the layer by.
-pub(super) struct Compared {
-    pub(super) water_rms: FittedValue,
-    pub(super) water_mean: FittedValue,
-    pub(super) grain_rms: FittedValue,
-    pub(super) drag: f64,
-    pub(super) transport: FittedValue,
-}
-
-/// Water, drag and transport of a flow beside those of the layer: whether they are judged, and transport by the formula too.
+/// Metrics of a flow beside the layer: whether they are judged, and also by what holds of flows that have forgotten their start.
 pub(super) fn beside_layer(
     run: &BedLoadFlow,
+    data: &BedLoadObservation,
     variant: &Variant,
-    layer: &LayerState,
-    compared: Compared,
     (judged, forgotten): (bool, bool),
 ) -> Vec<Metric> {
+    let dilating = run.dilates();
+    let Some(layer) = &data.layer else { return Vec::new() };
+    let mut metrics = vec![
+        channel::MOMENTUM_RESIDUAL
+            .of(variant, data.channel.momentum.residual())
+            .exactly(
+                0.0,
+                "change of momentum = gravity − what held grains and floor take; particles that cross a gradient of φ \
+                 change the share of their mass that counts",
+            )
+            .gated(
+                Limit::Within(-0.01, 0.01),
+                "0.01 for particles that cross a gradient of φ; drag and pressure only exchange momentum between water and grains",
+            )
+            .with_snapshot_tolerance(0.1, 1e-3),
+    ];
     let source = "the 1-D layer of the same closures; the water starts at `start` times its velocity";
-    let judged = judged && !run.rests();
     let gate = |limit: Limit| judged.then_some(limit);
     let observed =
         |quantity, estimate, exact| channel::observed(quantity, variant, estimate, 1.0).exactly(exact, source);
-    let dilating = run.dilates();
+    let profile = &data.channel.profile;
     let (most, reason) = if dilating {
         (0.1, "0.1 u_*: the profile may be shifted by 1/12 of a 1 mm spacing")
     } else {
         (0.25, "0.25 u_*: a profile shifted by 0.2 mm, where velocity grows by 1.4 u_*/mm")
     };
-    let mut metrics = vec![
-        observed(FLUID_VELOCITY_RMS, compared.water_rms, 0.0).gated_by(gate(Limit::AtMost(most)), reason),
-        observed(FLUID_VELOCITY_MEAN, compared.water_mean, 1.0).gated_by(
+    let rms = profile.estimate(|points| profiles::fluid_rms(run, points, layer));
+    let mean = profile.estimate(|points| profiles::fluid_mean(run, points, layer));
+    metrics.extend([
+        observed(FLUID_VELOCITY_RMS, rms, 0.0).gated_by(gate(Limit::AtMost(most)), reason),
+        observed(FLUID_VELOCITY_MEAN, mean, 1.0).gated_by(
             gate(Limit::Within(0.97, 1.03)),
             "3 %: a shifted profile is wrong by up to 0.25 u_*; the depth average is 10 u_*",
         ),
-    ];
-    if run.formulation == BedLoadFormulation::Porous || run.rests() {
+    ]);
+    if run.formulation == BedLoadFormulation::Porous {
         return metrics;
     }
+    let rms = data.sediment.estimate(|points| profiles::grain_rms(run, points, layer));
+    let force = profiles::drag_ratio(&data.drag_profile(), layer);
     metrics.extend([
-        observed(GRAIN_VELOCITY_RMS, compared.grain_rms, 0.0).gated_by(
+        observed(GRAIN_VELOCITY_RMS, rms, 0.0).gated_by(
             gate(Limit::AtMost(0.2)).filter(|_| !dilating),
             "0.2 u_*: a profile shifted by 0.3 mm, where grain velocity grows by 0.7 u_*/mm",
         ),
-        DRAG_RATIO.of(variant, compared.drag).exactly(1.0, source).with_snapshot_tolerance(0.0, 0.02).gated_by(
+        DRAG_RATIO.of(variant, force).exactly(1.0, source).with_snapshot_tolerance(0.0, 0.02).gated_by(
             gate(Limit::Within(0.95, 1.05)).filter(|_| dilating),
             "5 %: the bed's top cuts bins; drag balances the water's stress for any profile",
         ),
     ]);
-    let rate = compared.transport;
+    let rate = data.mean_transport();
     if dilating && forgotten {
         let expected = run.formula_transport();
         metrics.push(by_formula(channel::observed(PREDICTED_TRANSPORT, variant, rate, 1.0), run).gated(
@@ -129,5 +106,6 @@ pub(super) fn beside_layer(
             .exactly(1.0, source)
             .gated_by(gate(Limit::Within(1.0 - within, 1.0 + within)), reason),
     );
+    metrics.extend(grains(variant, run, data, forgotten && dilating));
     metrics
 }

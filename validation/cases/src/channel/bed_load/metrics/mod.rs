@@ -15,7 +15,7 @@ use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantit
 use crate::observation::Recorded;
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 use crate::shared::transport_in_units;
-use crate::statistics::{FittedValue, mean};
+use crate::statistics::mean;
 
 quantities! {
     [channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL]
@@ -213,23 +213,8 @@ fn printed((run, record): &BedLoadRecord) -> Vec<Metric> {
     ]
 }
 
-/// Curvatures of the grains' profile above and below the top of the bed.
-fn curvatures(variant: &Variant, judged: bool, estimate: impl Fn(bool) -> FittedValue) -> [Metric; 2] {
-    let sides =
-        [(GRAIN_CURVATURE_ABOVE, true, Limit::AtMost(0.0)), (GRAIN_CURVATURE_BELOW, false, Limit::AtLeast(0.0))];
-    sides.map(|(quantity, above, limit)| {
-        let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
-        let curvature = channel::observed(quantity, variant, estimate(above), 1.0);
-        curvature.against(None, source, Confidence::Medium).gated_by(
-            judged.then_some(limit),
-            "the paper states only the sign; profiles with too few points for a curvature fail",
-        )
-    })
-}
-
 /// Metrics of the grains; of flows that have forgotten their start the shape of their profile is judged by the paper's statement.
-fn grains(run: &BedLoadFlow, data: &BedLoadObservation, judged: bool) -> Vec<Metric> {
-    let variant = run.variant();
+fn grains(variant: &Variant, run: &BedLoadFlow, data: &BedLoadObservation, judged: bool) -> Vec<Metric> {
     let layer = data.layer.as_ref();
     let points = data.sediment.points();
     let (decays, moves) = (profiles::decay_length(&points), profiles::moves_above(&points, 0.01));
@@ -238,20 +223,28 @@ fn grains(run: &BedLoadFlow, data: &BedLoadObservation, judged: bool) -> Vec<Met
         (MOVES_ABOVE, moves, layer.and_then(|layer| layer.moves_above(0.01))),
     ];
     let in_millimetres = |(quantity, value, reference): (Quantity, f64, Option<f64>)| {
-        let metric = quantity.of(&variant, 1e3 * value).with_snapshot_tolerance(0.1, 0.5);
+        let metric = quantity.of(variant, 1e3 * value).with_snapshot_tolerance(0.1, 0.5);
         match reference {
             Some(reference) => metric.exactly(1e3 * reference, "the 1-D layer"),
             None => metric,
         }
     };
     let mut metrics = values.map(in_millimetres).to_vec();
-    let curvature = |above: bool| data.sediment.estimate(|points| profiles::grain_curvature(run, points, above));
-    metrics.extend(curvatures(&variant, judged, curvature));
+    let curvatures =
+        [(GRAIN_CURVATURE_ABOVE, true, Limit::AtMost(0.0)), (GRAIN_CURVATURE_BELOW, false, Limit::AtLeast(0.0))];
+    metrics.extend(curvatures.map(|(quantity, above, limit)| {
+        let estimate = data.sediment.estimate(|points| profiles::grain_curvature(run, points, above));
+        let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
+        channel::observed(quantity, variant, estimate, 1.0).against(None, source, Confidence::Medium).gated_by(
+            judged.then_some(limit),
+            "the paper states only the sign; profiles with too few points for a curvature fail",
+        )
+    }));
     let drag = data.drag_profile();
     let peak = drag
         .iter()
         .copied()
         .fold((f64::NAN, f64::NEG_INFINITY), |best, point| if point.1 > best.1 { point } else { best });
-    metrics.push(DRAG_PEAK_HEIGHT.of(&variant, 1e3 * peak.0).with_snapshot_tolerance(0.1, 1.0));
+    metrics.push(DRAG_PEAK_HEIGHT.of(variant, 1e3 * peak.0).with_snapshot_tolerance(0.1, 1.0));
     metrics
 }

@@ -6,6 +6,7 @@ use crate::channel::bed_load::flow::FITTED;
 use crate::channel::bed_load::profiles::LAYERS;
 use crate::metric::MetricKind;
 use crate::reference::bed_load::LAYER_STATEMENTS;
+use crate::statistics::FittedValue;
 use bagnold_solver::material::rheology::Rheology;
 
 /// The gentler slope that the paper makes statements of, whose profile and transport are judged `[-]`.
@@ -95,7 +96,7 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord) -> V
         ]);
     }
     // particles of grains are too few for a curvature
-    metrics.extend(grains(run, data, false));
+    metrics.extend(grains(&variant, run, data, false));
     let ratio = DRAG_TOP_RATIO.of(&variant, profiles::drag_top_ratio(&data.drag_profile()));
     metrics.push(stated(ratio, None, "less drag on the topmost grains than below").with_snapshot_tolerance(0.1, 0.0));
     metrics
