@@ -62,5 +62,7 @@ mod tests {
         // the figures of the model notes: η = 38 kPa·s at h = 3 mm needs a step below 1e-7 s
         let bounds = TimeStepBounds::new(&numerics, 0.003, 8.0, 1.0, 38e3 / 1500.0);
         assert!(bounds.step() == bounds.viscous && bounds.step() < 1e-7);
+        // C ρ h²/η with C = 0.2
+        assert!((bounds.viscous / (0.2 * 1500.0 * 0.003 * 0.003 / 38e3) - 1.0).abs() < 1e-12);
     }
 }

@@ -6,3 +6,11 @@
 pub fn regularisation(smoothing_length: f64) -> f64 {
     1e-4 * smoothing_length * smoothing_length
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_length_is_a_hundredth_of_the_smoothing_length() {
+        assert!((super::regularisation(0.3).sqrt() / 0.3 - 0.01).abs() < 1e-15);
+    }
+}

@@ -200,6 +200,14 @@ mod tests {
     }
 
     #[test]
+    fn rows_reach_as_far_as_the_kernel_and_one_spacing_more() {
+        for ratio in [1.2, 1.3, 1.5, 2.0] {
+            let beyond = rows(ratio) as f64 - crate::kernel::SUPPORT * ratio;
+            assert!((1.0..2.0).contains(&beyond), "{beyond} rows more than h/Δ = {ratio} asks for");
+        }
+    }
+
+    #[test]
     fn a_corner_is_filled_and_belongs_to_the_nearest_surface() {
         let bed = Wall::<2>::still(1, 0.0, 1.0);
         let left = Wall::<2>::still(0, 0.0, 1.0);

@@ -394,6 +394,15 @@ mod tests {
     }
 
     #[test]
+    fn the_streams_of_the_paper_have_its_shields_numbers() {
+        // three digits are printed
+        for (slope, printed) in [(0.03, 0.173), (0.05, 0.288)] {
+            let found = Stream { slope, ..BedLoad1dFlow::default().stream() }.shields_number();
+            assert!((found - printed).abs() <= 5.01e-4, "{found} at {slope}");
+        }
+    }
+
+    #[test]
     fn the_list_has_the_streams_of_the_published_layers() {
         let flows = RunList::<BedLoad1dFlow>::of_tier(Tier::Paper).flows().to_vec();
         for name in ["grain-simulation", "sheet-flow", "duct"] {
