@@ -32,7 +32,8 @@ pub(crate) fn sheared() -> Scene<2> {
     scene.domain.axes[0] = AxisBoundary::Periodic { lower: 0.0, upper: 0.14 };
     let mut lid = shell("lid", &[[0.3, 0.127], [-0.1, 0.127]]);
     let displacements = vec![Vector::zeros(), Vector::<2>::new(2.0, 0.0)];
-    lid.motion = Motion { times: vec![0.0, 1.0], displacements, load: scene.enclosure.walls[1].motion.load };
+    lid.motion =
+        Motion { times: vec![0.0, 1.0], displacements, turn: None, load: scene.enclosure.walls[1].motion.load };
     scene.enclosure.walls = vec![shell("floor", &[[-0.1, 0.0], [0.3, 0.0]]), lid];
     scene
 }
@@ -58,7 +59,7 @@ where
 {
     let load = scene.enclosure.walls[1].motion.load.expect("a load");
     let mut simulation = simulation(scene);
-    let travel = |simulation: &Simulation<D>| simulation.facet_wall_displacements()[1].dot(&load.direction);
+    let travel = |simulation: &Simulation<D>| simulation.facet_wall_poses()[1].shift.dot(&load.direction);
     assert!((travel(&simulation) - load.travel).abs() < 1e-15, "it starts where it has travelled to");
     advance(&mut simulation, 500);
     let (before, time) = (travel(&simulation), simulation.time());

@@ -191,8 +191,11 @@ fn gravity_and_the_walls_of_triangles_give_all_the_momentum_and_nothing_passes()
     let funnel: Vec<Triangle> = (0..4).map(|k| [corners[(k + 1) % 4], low, corners[k]]).collect();
     let lid = quad(at(-0.03, -0.03, 0.085), at(0.0, 0.13, 0.0), at(0.13, 0.0, 0.0));
     let mut moved = FacetWall::mesh("lid", &lid);
-    moved.motion =
-        Motion { times: vec![0.0, 0.02], displacements: vec![Vector::zeros(), at(0.0, 0.0, -0.012)], load: None };
+    moved.motion = Motion {
+        times: vec![0.0, 0.02],
+        displacements: vec![Vector::zeros(), at(0.0, 0.0, -0.012)],
+        ..Motion::default()
+    };
     scene.enclosure.walls = vec![FacetWall::mesh("funnel", &funnel), moved];
     let (gravity, mass) = (scene.gravity, scene.flow.mass.iter().sum::<f64>());
     let mut simulation = simulation(scene);

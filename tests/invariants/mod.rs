@@ -32,6 +32,7 @@ mod supports;
 mod surface_operators;
 mod symmetries;
 mod thrown_grains;
+mod turns;
 pub(crate) mod two_phases;
 mod viscous_step;
 mod walls;

@@ -8,6 +8,7 @@ use crate::invariants::loads;
 use crate::invariants::memories;
 use crate::invariants::patches::{self, GRAINS, SYRUP, bed, simulation};
 use crate::invariants::shells;
+use crate::invariants::turns;
 use crate::invariants::two_phases;
 use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, SavedIncompressible};
 use bagnold_solver::material::rheology::Rheology;
@@ -134,10 +135,12 @@ fn walls_of_segments_and_open_sides_go_on_in_the_same_bits() {
 }
 
 #[test]
-fn walls_under_loads_go_on_in_the_same_bits() {
+fn walls_that_loads_move_or_that_turn_go_on_in_the_same_bits() {
     check(&loads::pressed(30.0));
     check(&loads::pressed_in_space());
     check(&loads::sheared());
+    check(&turns::drum(3.0));
+    check(&turns::tube());
 }
 
 #[test]

@@ -28,11 +28,11 @@ pub enum Quantity {
         /// Name of the wall.
         wall: String,
     },
-    /// Travel of a wall under a load `[m]`.
-    LoadedWall {
-        /// Name of the wall.
-        wall: String,
-        /// End of its way.
+    /// Travel of a wall under a load `[m]`, or angle of one that turns `[rad]`.
+    DrivenWall {
+        /// Which of both, and its unit.
+        measure: (&'static str, &'static str),
+        /// The wall and the end of its way.
         end: String,
     },
     /// Pressure before the rows of an inlet `[Pa]`.
@@ -71,7 +71,7 @@ impl Quantity {
                 ("number of neighbours", "or more", format!(", above the {limit} that a neighbour list row can hold"))
             }
             Self::Penetration { wall } => ("distance", "m", format!(" before the wall `{wall}`: it has passed it")),
-            Self::LoadedWall { wall, end } => ("travel of a wall", "m", format!(": `{wall}` under its load {end}")),
+            Self::DrivenWall { measure: (name, unit), end } => (name, unit, format!(": {end}")),
             Self::InflowPressure { inlet, limit } => {
                 let rule = format!(
                     ", above the {limit:.4e} Pa that compress the material by a tenth: the inlet `{inlet}` is blocked, since the \

@@ -68,9 +68,8 @@ impl<const D: usize> Particles<D> {
         });
         let of_facets = backing.iter().enumerate().flat_map(|(index, backing)| {
             let (velocity, roughness) = (enclosure.velocity(index, 0.0), enclosure.walls[index].roughness);
-            let displacement = enclosure.displacements[index];
-            let placed =
-                move |own: &BackingParticle<D>| BackingParticle { position: own.position + displacement, ..*own };
+            let shift = enclosure.poses[index].shift;
+            let placed = move |own: &BackingParticle<D>| BackingParticle { position: own.position + shift, ..*own };
             backing.iter().map(move |own| (placed(own), velocity, roughness, walls.len() + index))
         });
         for (BackingParticle { position, normal, depth, volume }, velocity, roughness, wall) in

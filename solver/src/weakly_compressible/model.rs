@@ -43,6 +43,8 @@ pub struct Model<const D: usize> {
     pub(crate) dilates: bool,
     /// Liquid that bears a part of the pressure, which is the law's field.
     pub(crate) pore_liquid: Option<PoreLiquid>,
+    /// Whether walls turn.
+    pub(crate) turns: bool,
     /// Artificial stress of a cohesive law.
     pub artificial_stress: Option<ArtificialStress>,
 }

@@ -104,20 +104,20 @@ macro_rules! for_each_shared_array {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Moves the wall particles with their walls, from `first` on, by displacements `[m]`, to these velocities `[m/s]`;
-    /// those of other walls stay.
+    /// Moves the wall particles with their walls, from `first` on, by displacements `[m]`, to these velocities `[m/s]` by wall and lever
+    /// `[m]`; those of other walls stay.
     pub(crate) fn move_walls(
         &mut self,
         first: usize,
         displacements: &[Vector<D>],
-        velocity: impl Fn(usize) -> Vector<D>,
+        velocity: impl Fn(usize, &Vector<D>) -> Vector<D>,
     ) {
         for (offset, &wall) in self.wall.iter().enumerate() {
             let Some(wall) = (wall as usize).checked_sub(first).filter(|&wall| wall < displacements.len()) else {
                 continue;
             };
             self.position[self.flow + offset] += displacements[wall];
-            self.walls.velocity[offset] = velocity(wall);
+            self.walls.velocity[offset] = velocity(wall, &self.walls.lever[offset]);
         }
     }
 

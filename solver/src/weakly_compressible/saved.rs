@@ -88,20 +88,21 @@ impl<const D: usize> Simulation<D> {
         ForeignState::check("walls", walls.len(), state.walls.len())?;
         ForeignState::check("walls of segments", books.impulses.len(), facet_walls)?;
         ForeignState::check("walls under loads", books.travels.len(), facet_walls)?;
-        let begun_at = state.enclosure.displacements.clone();
+        ForeignState::check("moments of walls", books.moments.len(), facet_walls)?;
+        let begun_at = state.enclosure.poses.clone();
         state.enclosure.restore(books, saved.time);
-        let moved: Vec<Vector<D>> =
-            state.enclosure.displacements.iter().zip(begun_at).map(|(now, begun)| now - begun).collect();
+        let moved: Vec<_> = begun_at.iter().zip(&state.enclosure.poses).collect();
         let moved = &moved[..facet_walls - state.enclosure.inlets.len()];
         let is_at_its_place = |&index: &usize| {
             let wall = (particles.wall[index] as usize).checked_sub(walls.len());
-            let (Some(moved), Some(place)) =
+            let (Some((start, now)), Some(place)) =
                 (wall.and_then(|wall| moved.get(wall)), particles.position.get(particles.flow_count() + index))
             else {
                 return true;
             };
             let begun = state.particles.position[state.particles.flow_count() + index];
-            state.search.domain.shortest(place - begun - moved).norm() < MISPLACED * scene_spacing
+            let expected = now.place(&(begun - start.shift));
+            state.search.domain.shortest(place - expected).norm() < MISPLACED * scene_spacing
         };
         let count = particles.wall_count();
         let placed = (0..count).filter(is_at_its_place).count();

@@ -9,6 +9,7 @@ use crate::vector::Vector;
 use crate::weakly_compressible::enclosure::boundary_set::OutflowBySide;
 use crate::weakly_compressible::enclosure::facet_wall::{BackingParticle, FacetWall};
 use crate::weakly_compressible::enclosure::inlet::{Inflow, Inlet};
+use crate::weakly_compressible::enclosure::pose::Pose;
 use crate::weakly_compressible::enclosure::{backing, mesh_backing};
 use crate::weakly_compressible::energy::EnergyAccount;
 use crate::weakly_compressible::model::GradientUse;
@@ -263,10 +264,16 @@ impl<const D: usize> Simulation<D> {
         &self.state.enclosure.books.impulses
     }
 
-    /// Displacement of each facet wall, and then of the rows of each inlet, since the start `[m]`.
+    /// Moments of these impulses about the axes that walls turn about `[kg m²/s]`; zero of other walls.
     #[must_use]
-    pub fn facet_wall_displacements(&self) -> &[Vector<D>] {
-        &self.state.enclosure.displacements
+    pub fn facet_wall_moments(&self) -> &[f64] {
+        &self.state.enclosure.books.moments
+    }
+
+    /// Pose of each facet wall, and then of the rows of each inlet.
+    #[must_use]
+    pub fn facet_wall_poses(&self) -> &[Pose<D>] {
+        &self.state.enclosure.poses
     }
 
     /// Velocity that speeds are relative to `[m/s]`.

@@ -65,6 +65,7 @@ impl<const D: usize> State<D> {
         let (enclosure, flow) = (std::mem::take(&mut scene.enclosure), scene.flow.position.len());
         let enclosure = BoundaryState::new(enclosure, scene.spacing, planes, flow, backing);
         let mut particles = Particles::new(&scene, backing, &enclosure);
+        enclosure.turn(&mut particles, &scene.domain, 0.0);
         particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
         let model = Model {
             list: VerletList::default(),
@@ -84,6 +85,7 @@ impl<const D: usize> State<D> {
             },
             dilates: scene.rheology.dilates(),
             pore_liquid: scene.rheology.pore_liquid(),
+            turns: enclosure.walls.iter().any(|wall| wall.motion.turn.is_some()),
             artificial_stress: (scene.rheology.is_cohesive()).then(|| ArtificialStress::new(&kernel, scene.spacing)),
         };
         particles.artificial_viscosity.fill(model.initial_artificial_viscosity());
@@ -130,7 +132,7 @@ impl<const D: usize> State<D> {
         let filled = self.search.run(&mut self.particles, &mut self.images, &mut self.model);
         self.displacement = 0.0;
         self.enclosure.assign_owners(&self.particles, &self.images);
-        if let Some(found) = self.enclosure.find_driven_out(self.model.equation_of_state.sound_speed()) {
+        if let Some(found) = self.enclosure.find_driven_out(self.model.equation_of_state.sound_speed(), self.time) {
             return Err(self.diverged(found));
         }
         filled.map_err(|crowded| {

@@ -134,7 +134,7 @@ impl<const D: usize> State<D> {
             *displacement = wall.advance(time_step);
         }
         let walls = &self.walls;
-        self.particles.move_walls(0, &self.wall_displacements, |wall| walls[wall].velocity);
+        self.particles.move_walls(0, &self.wall_displacements, |wall, _| walls[wall].velocity);
         self.images.copy_wall_vectors(&mut self.particles.walls.velocity);
         fastest
     }
@@ -146,7 +146,8 @@ impl<const D: usize> State<D> {
             .with_min_len(4096)
             .for_each(|(position, velocity): (&mut Vector<D>, &Vector<D>)| *position += velocity * time_step);
         let end = self.time + time_step;
-        let fastest_facet = self.enclosure.advance(&mut self.particles, &self.images, end, time_step);
+        let surroundings = (&self.images, &self.search.domain);
+        let fastest_facet = self.enclosure.advance(&mut self.particles, surroundings, (end, time_step));
         let fastest_wall = self.move_walls(time_step).max(fastest_facet);
         self.images.copy_positions(&mut self.particles.position);
         self.displacement += time_step * self.largest_speed.max(fastest_wall);

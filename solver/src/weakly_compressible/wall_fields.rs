@@ -1,7 +1,7 @@
 //! Fields of wall particles alone, and marks of images behind a mirror: arrays that leave the flow out.
 
 use crate::lanes::{LANES, LaneIndices, Lanes, gather};
-use crate::vector::Vector;
+use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::walls::Images;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +15,10 @@ pub struct WallFields<const D: usize> {
     pub depth: Vec<f64>,
     /// Velocities of the walls themselves `[m/s]`.
     pub velocity: Vec<Vector<D>>,
+    /// Displacements per angle of the surface of walls that turn `[m]`, zero of others: levers of forces about the axis.
+    pub(crate) lever: Vec<Vector<D>>,
+    /// Velocity gradients of walls that turn `[1/s]`, zero of others.
+    pub(crate) spin: Vec<Tensor<D>>,
     /// Velocities of walls as the continuity of a sliding liquid takes them `[m/s]`.
     pub(crate) sliding_velocity: Vec<Vector<D>>,
     /// 1 on particles of smooth walls, 0 elsewhere `[-]`.
@@ -28,17 +32,21 @@ impl<const D: usize> WallFields<D> {
         self.depth.push(depth);
         self.velocity.push(velocity);
         self.sliding_velocity.push(Vector::zeros());
+        self.lever.push(Vector::zeros());
+        self.spin.push(Tensor::zeros());
         self.smoothness.push(if is_smooth { 1.0 } else { 0.0 });
     }
 
     /// Makes room for the images behind so many wall particles, and fills in those of walls.
     pub(crate) fn append_images(&mut self, images: &Images<D>, walls: usize) {
         let total = walls + images.len() + 1;
-        let Self { normal, depth, velocity, sliding_velocity, smoothness } = self;
-        for vectors in [normal, velocity, sliding_velocity] {
+        let Self { normal, depth, velocity, lever, spin, sliding_velocity, smoothness } = self;
+        for vectors in [normal, velocity, lever, sliding_velocity] {
             resize(vectors, walls, total, Vector::zeros());
             images.copy_wall_vectors(vectors);
         }
+        resize(spin, walls, total, Tensor::zeros());
+        images.copy_wall_tensors(spin);
         for scalars in [depth, smoothness] {
             resize(scalars, walls, total, 0.0);
             images.copy_wall_scalars(scalars);
@@ -47,9 +55,9 @@ impl<const D: usize> WallFields<D> {
 
     /// Whether every array has this length.
     pub(crate) fn are_as_long_as(&self, length: usize) -> bool {
-        let Self { normal, depth, velocity, sliding_velocity, smoothness } = self;
-        let lengths = [normal.len(), velocity.len(), sliding_velocity.len(), depth.len(), smoothness.len()];
-        lengths.into_iter().all(|found| found == length)
+        let Self { normal, depth, velocity, lever, spin, sliding_velocity, smoothness } = self;
+        let vectors = [normal, velocity, lever, sliding_velocity].map(Vec::len);
+        vectors.into_iter().chain([spin.len(), depth.len(), smoothness.len()]).all(|found| found == length)
     }
 }
 

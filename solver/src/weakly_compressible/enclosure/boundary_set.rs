@@ -2,6 +2,7 @@
 
 use super::facet_wall::FacetWall;
 use super::inlet::Inlet;
+use super::wall_turn::WallTurn;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::Vector;
@@ -40,6 +41,7 @@ impl<const D: usize> BoundarySet<D> {
             for (quantity, sound) in [
                 ("corner of a wall's segments", corners.into_iter().all(|corner| corner.sum().is_finite())),
                 ("table of a wall's motion", wall.motion.is_sound() && begun),
+                ("turn of a wall", wall.motion.turn.as_ref().is_none_or(WallTurn::is_sound)),
                 ("load of a wall", wall.motion.load.is_none_or(|load| load.is_sound())),
             ] {
                 if !sound {

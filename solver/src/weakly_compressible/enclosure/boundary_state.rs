@@ -5,9 +5,11 @@ use super::boundary_set::{BoundarySet, Exits, OutflowBySide};
 use super::facet_grid::FacetGrid;
 use super::facet_wall::{BackingParticle, FacetWall};
 use super::inlet::{Inflow, Inlet};
+use super::pose::Pose;
 use super::wall_load::WallTravel;
 use crate::run::ForeignState;
 use crate::vector::Vector;
+use crate::weakly_compressible::passes::shell_impulse::WallImpulse;
 use serde::{Deserialize, Serialize};
 
 /// Boundaries of the scene, and their state.
@@ -25,19 +27,25 @@ pub(crate) struct BoundaryState<const D: usize> {
     pub(crate) inlets: Vec<Inlet<D>>,
     /// Velocity that speeds are relative to `[m/s]`.
     pub(crate) frame: Vector<D>,
-    /// First particle of each inlet's rows among all wall particles.
+    /// First particle of each facet wall, and then of each inlet's rows, among all wall particles.
     pub(super) first_particles: Vec<usize>,
     /// Particles of the flow at the start.
     begun: u32,
-    /// Displacement of each facet wall since the start `[m]`, and in the last step.
-    pub(crate) displacements: Vec<Vector<D>>,
+    /// Pose of each facet wall, and when it was last looked for those that are driven out.
+    pub(crate) poses: Vec<Pose<D>>,
+    pub(super) earlier: Vec<Pose<D>>,
+    /// Displacement of each in the last step `[m]`.
     pub(super) last: Vec<Vector<D>>,
-    /// Mean velocity of each in the present step `[m/s]`.
-    pub(super) velocities: Vec<Vector<D>>,
+    /// Mean velocity `[m/s]` and rate `[rad/s]` of each in the present step.
+    pub(super) velocities: Vec<(Vector<D>, f64)>,
+    /// Largest speed of the particles of each by its turn `[m/s]`.
+    pub(super) rim_speeds: Vec<f64>,
+    /// Dummy particles at the start of each that turns.
+    pub(super) turning: Vec<Vec<BackingParticle<D>>>,
     /// The facet wall of every particle in the arrays; none of the flow.
     pub(super) owners: Vec<u32>,
     /// Impulses of a step, block by block.
-    pub(super) blocks: Vec<Vector<D>>,
+    pub(super) blocks: Vec<WallImpulse<D>>,
     pub(super) gone: Vec<bool>,
     pub(crate) books: Books<D>,
 }
@@ -47,6 +55,8 @@ pub(crate) struct BoundaryState<const D: usize> {
 pub(crate) struct Books<const D: usize> {
     /// Impulse that each facet wall has given to the flow since the start `[kg m/s]`.
     pub(crate) impulses: Vec<Vector<D>>,
+    /// Their moments about the axes that walls turn about `[kg m²/s]`; zero of other walls.
+    pub(crate) moments: Vec<f64>,
     /// State of each facet wall under a load.
     pub(crate) travels: Vec<WallTravel>,
     pub(crate) outflow: OutflowBySide<D>,
@@ -68,7 +78,12 @@ impl<const D: usize> BoundaryState<D> {
         let BoundarySet { mut walls, exits, inlets, frame } = enclosure;
         walls.extend(inlets.iter().map(Inlet::wall));
         let before = |wall: usize| plane + backing[..wall].iter().map(Vec::len).sum::<usize>();
-        let first_particles = (walls.len() - inlets.len()..walls.len()).map(before).collect();
+        let first_particles = (0..walls.len()).map(before).collect();
+        let turning = walls.iter().zip(backing);
+        let turning = turning.map(|(wall, own)| wall.motion.turn.iter().flat_map(|_| own.clone()).collect());
+        let rim_speed = |(wall, backing): (&FacetWall<D>, &Vec<BackingParticle<D>>)| {
+            wall.motion.turn.as_ref().map_or(0.0, |turn| turn.largest_speed(backing.iter().map(|own| &own.position)))
+        };
         let range = 0.5 * spacing;
         let none = vec![Vector::zeros(); walls.len()];
         let travels = walls.iter().map(|wall| WallTravel::of(wall.motion.load.as_ref())).collect();
@@ -79,14 +94,18 @@ impl<const D: usize> BoundaryState<D> {
             exits,
             first_particles,
             begun: flow as u32,
-            displacements: none.clone(),
+            poses: vec![Pose::start(); walls.len()],
+            earlier: Vec::new(),
             last: none.clone(),
-            velocities: none.clone(),
+            velocities: vec![(Vector::zeros(), 0.0); walls.len()],
+            rim_speeds: walls.iter().zip(backing).map(rim_speed).collect(),
+            turning: turning.collect(),
             owners: Vec::new(),
             blocks: Vec::new(),
             gone: Vec::new(),
             books: Books {
                 impulses: none,
+                moments: vec![0.0; walls.len()],
                 travels,
                 outflow: OutflowBySide::default(),
                 inflow: Inflow::none(inlets.len()),
@@ -108,15 +127,17 @@ impl<const D: usize> BoundaryState<D> {
 
     fn place_walls(&mut self, time: f64) {
         for wall in 0..self.walls.len() {
-            self.displacements[wall] = self.place(wall, time);
+            self.poses[wall] = self.pose(wall, time);
         }
+        self.earlier.clone_from(&self.poses);
     }
 
     /// Largest speed of any facet wall at any time by its table, and by its load now, relative to the frame `[m/s]`.
     pub(crate) fn largest_speed(&self) -> f64 {
         let inlets = self.inlets.iter().map(|inlet| inlet.largest_speed() + self.frame.norm());
-        let walls = self.walls.iter().zip(&self.books.travels);
-        let walls = walls.map(|(wall, travel)| wall.motion.largest_speed(&self.frame) + travel.speed.abs());
+        let walls = self.walls.iter().zip(&self.books.travels).zip(&self.rim_speeds);
+        let walls =
+            walls.map(|((wall, travel), rim)| wall.motion.largest_speed(&self.frame) + travel.speed.abs() + rim);
         walls.chain(inlets).fold(0.0, f64::max)
     }
 
@@ -138,7 +159,12 @@ impl<const D: usize> BoundaryState<D> {
         }
     }
 
-    /// Velocity of a facet wall, or of the rows of an inlet, right after a time `[m/s]`.
+    /// Pose of a facet wall, or of the rows of an inlet, at a time.
+    pub(super) fn pose(&self, wall: usize, time: f64) -> Pose<D> {
+        Pose { shift: self.place(wall, time), ..self.walls[wall].motion.pose(time) }
+    }
+
+    /// Velocity of a facet wall without its turn, or of the rows of an inlet, right after a time `[m/s]`.
     pub(crate) fn velocity(&self, wall: usize, time: f64) -> Vector<D> {
         match wall.checked_sub(self.first_inlet()) {
             Some(inlet) => self.inlets[inlet].direction() * self.inlets[inlet].speed(time),
@@ -160,8 +186,11 @@ impl<const D: usize> BoundaryState<D> {
     /// Adds the impulses of a step, in the order of the blocks.
     pub(super) fn close_impulses(&mut self) {
         for block in self.blocks.chunks_exact_mut(self.walls.len().max(1)) {
-            for (sum, impulse) in self.books.impulses.iter_mut().zip(block) {
-                *sum += std::mem::replace(impulse, Vector::zeros());
+            let sums = self.books.impulses.iter_mut().zip(&mut self.books.moments);
+            for ((impulse, moment), own) in sums.zip(block) {
+                let WallImpulse { linear, angular } = std::mem::replace(own, WallImpulse::none());
+                *impulse += linear;
+                *moment += angular;
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::Contact;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::PairData;
-use crate::weakly_compressible::passes::shell_impulse::{self, Booking, NO_OWNER};
+use crate::weakly_compressible::passes::shell_impulse::{self, Booking, NO_OWNER, WallImpulse};
 use crate::weakly_compressible::walls::Images;
 
 impl<const D: usize> BoundaryState<D> {
@@ -64,7 +64,7 @@ impl<const D: usize> BoundaryState<D> {
     /// Room for the impulses of a step on a flow of so many particles. Without facet walls every block still has a slot.
     pub(crate) fn booking(&mut self, flow: usize) -> Booking<'_, D> {
         let walls = self.walls.len();
-        self.blocks.resize(flow.div_ceil(BLOCK) * walls.max(1), Vector::zeros());
+        self.blocks.resize(flow.div_ceil(BLOCK) * walls.max(1), WallImpulse::none());
         Booking { owners: &self.owners, walls, impulses: &mut self.blocks }
     }
 
@@ -102,11 +102,13 @@ impl<const D: usize> BoundaryState<D> {
             return None;
         }
         for wall in 0..self.walls.len() {
-            let way = self.place(wall, time + time_step) - self.displacements[wall];
-            self.velocities[wall] = way / time_step;
+            let (way, turn) =
+                (self.place(wall, time + time_step) - self.poses[wall].shift, &self.walls[wall].motion.turn);
+            let angle = turn.as_ref().map_or(0.0, |turn| turn.angle(time + time_step) - turn.angle(time));
+            self.velocities[wall] = (way / time_step, angle / time_step);
         }
-        let Self { walls, grids, range, displacements, velocities, blocks, .. } = self;
-        let touch = Touch { domain, walls, grids, displacements, velocities, range: *range, friction };
+        let Self { walls, grids, range, poses, velocities, blocks, .. } = self;
+        let touch = Touch { domain, walls, grids, poses, velocities, range: *range, friction };
         let found = facet_contact::run(model, particles, energy, touch, time_step, blocks);
         self.close_impulses();
         let passed = found.passed.map(|(index, Passed { wall, distance })| OutOfRange {
@@ -118,20 +120,30 @@ impl<const D: usize> BoundaryState<D> {
         Some((found.largest.sqrt(), passed))
     }
 
-    /// Moves the facet walls in a step that ends at a time `[s]`; returns the speed of the fastest `[m/s]`.
-    pub(crate) fn advance(&mut self, particles: &mut Particles<D>, images: &Images<D>, end: f64, step: f64) -> f64 {
+    /// Moves the facet walls in a step `[s]` that ends at a time `[s]`; returns the speed of the fastest `[m/s]`.
+    pub(crate) fn advance(
+        &mut self,
+        particles: &mut Particles<D>,
+        (images, domain): (&Images<D>, &Domain<D>),
+        (end, step): (f64, f64),
+    ) -> f64 {
         if self.inlets.is_empty() && self.walls.iter().all(|wall| wall.motion.is_rest()) {
             return 0.0;
         }
         let mut fastest = 0.0_f64;
         for wall in 0..self.walls.len() {
-            let next = self.place(wall, end);
-            self.last[wall] = next - self.displacements[wall];
-            self.displacements[wall] = next;
-            fastest = fastest.max(self.last[wall].norm() / step);
+            let next = self.pose(wall, end);
+            self.last[wall] = next.shift - self.poses[wall].shift;
+            self.poses[wall] = next;
+            fastest = fastest.max(self.last[wall].norm() / step + self.rim_speeds[wall]);
         }
-        particles.move_walls(self.plane_walls, &self.last, |wall| self.velocity(wall, end));
-        images.copy_wall_vectors(&mut particles.walls.velocity);
+        particles.move_walls(self.plane_walls, &self.last, |wall, _| self.velocity(wall, end));
+        self.turn(particles, domain, end);
+        let walls = &mut particles.walls;
+        for field in [&mut walls.velocity, &mut walls.normal, &mut walls.lever] {
+            images.copy_wall_vectors(field);
+        }
+        images.copy_wall_tensors(&mut walls.spin);
         fastest
     }
 }

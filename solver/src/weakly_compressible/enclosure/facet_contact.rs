@@ -6,6 +6,7 @@ use super::facet::Facet;
 use super::facet_grid::FacetGrid;
 use super::facet_side::{FacetSide, facet_side};
 use super::facet_wall::FacetWall;
+use super::pose::Pose;
 use crate::domain::Domain;
 use crate::lanes::LANES;
 use crate::parallel::prelude::*;
@@ -14,6 +15,7 @@ use crate::weakly_compressible::energy::{EnergyLedger, PushCause, PushStep};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::passes::shell_impulse::WallImpulse;
 use crate::weakly_compressible::walls::Surface;
 
 /// Sweeps over the facets that are touched; a corner of two or three walls seldom needs more, and one that does
@@ -31,10 +33,10 @@ pub(super) struct Touch<'a, const D: usize> {
     pub(super) walls: &'a [FacetWall<D>],
     /// Grids to find their facets by, wall by wall.
     pub(super) grids: &'a [FacetGrid<D>],
-    /// Displacement of each since the start `[m]`.
-    pub(super) displacements: &'a [Vector<D>],
-    /// Mean velocity of each in the step `[m/s]`.
-    pub(super) velocities: &'a [Vector<D>],
+    /// Pose of each.
+    pub(super) poses: &'a [Pose<D>],
+    /// Mean velocity `[m/s]` and rate `[rad/s]` of each in the step.
+    pub(super) velocities: &'a [(Vector<D>, f64)],
     /// Distance within which a particle is touched `[m]`.
     pub(super) range: f64,
     /// Friction of rough ones `[-]`.
@@ -70,7 +72,9 @@ impl<'a, const D: usize> Touch<'a, D> {
     /// Facets whose boxes hold a place, with their wall and the place in the wall's frame.
     fn near(self, position: Vector<D>) -> impl Iterator<Item = (usize, &'a Facet<D>, Vector<D>)> + Clone {
         self.walls.iter().enumerate().flat_map(move |(k, wall)| {
-            let mut place = position - self.displacements[k];
+            let turns = wall.motion.turn.is_some();
+            let image = |way| if turns { self.domain.shortest(way) } else { way };
+            let mut place = self.poses[k].back(&position, image);
             if !wall.motion.is_rest() {
                 self.domain.wrap(&mut place);
             }
@@ -78,6 +82,12 @@ impl<'a, const D: usize> Touch<'a, D> {
             let listed = self.grids[k].near(&place).iter().map(|&index| &wall.facets[index as usize]);
             listed.filter(near).map(move |facet| (k, facet, place))
         })
+    }
+
+    /// Velocity of a wall at a place `[m/s]`.
+    fn wall_velocity(self, wall: usize, place: &Vector<D>) -> Vector<D> {
+        let (velocity, rate) = self.velocities[wall];
+        velocity + self.poses[wall].lever(place) * rate
     }
 
     /// Stops the approach of a particle to all facet walls and rubs it, as plane walls do. `book` gets the change of velocity
@@ -111,7 +121,7 @@ impl<'a, const D: usize> Touch<'a, D> {
         for sweep in 0..=SWEEPS {
             let mut approached = false;
             for (wall, facet, place) in near.clone() {
-                let relative = velocity + change - self.velocities[wall];
+                let relative = velocity + change - self.wall_velocity(wall, position);
                 let Some(contact) = self.contact(wall, facet, (&place, &relative), rim) else { continue };
                 let approach = relative.dot(&contact.normal);
                 if approach < 0.0 && (sweep == 0 || -approach > ROUNDING * velocity.norm()) {
@@ -144,11 +154,13 @@ impl<'a, const D: usize> Touch<'a, D> {
             return None;
         }
         let on_its_face = height.abs() >= (1.0 - TIE) * distance;
+        let pose = &self.poses[wall];
         if on_its_face {
-            return (height >= 0.0).then_some(Contact { wall, normal: facet.normal });
+            return (height >= 0.0).then(|| Contact { wall, normal: pose.direction(&facet.normal) });
         }
-        let touched = distance <= rim.least && (rim.height < 0.0 || self.meets(facet, place, relative));
-        touched.then(|| Contact { wall, normal: way / distance })
+        let meets = || self.meets(facet, place, &pose.direction_back(relative));
+        let touched = distance <= rim.least && (rim.height < 0.0 || meets());
+        touched.then(|| Contact { wall, normal: pose.direction(&(way / distance)) })
     }
 
     /// Whether a particle in front of a facet meets its face on a straight way within the range.
@@ -190,7 +202,7 @@ pub(super) fn run<const D: usize>(
     energy: &mut [EnergyLedger],
     touch: Touch<'_, D>,
     time_step: f64,
-    impulses: &mut [Vector<D>],
+    impulses: &mut [WallImpulse<D>],
 ) -> Extremes {
     let flow = particles.flow_count();
     let (position, mass, acceleration) = (&particles.position[..flow], &particles.mass, &particles.acceleration);
@@ -215,8 +227,8 @@ pub(super) fn run<const D: usize>(
                 // work of the walls by moving
                 let mut given = 0.0;
                 let book = |wall: usize, push: Vector<D>| {
-                    out[wall] += push * mass;
-                    given += mass * push.dot(&touch.velocities[wall]);
+                    out[wall].add(push * mass, &touch.poses[wall].lever(&position[index]));
+                    given += mass * push.dot(&touch.wall_velocity(wall, &position[index]));
                 };
                 match touch.respond(&position[index], velocity, book) {
                     Ok(push) => {
@@ -266,14 +278,14 @@ mod tests {
     }
 
     fn after(walls: &[FacetWall<2>], place: [f64; 2], velocity: [f64; 2]) -> Result<Vector<2>, Passed> {
-        let rest = vec![Vector::zeros(); walls.len()];
+        let poses = vec![Pose::start(); walls.len()];
         let grids: Vec<_> = walls.iter().map(|wall| FacetGrid::new(&wall.facets, 0.5)).collect();
         let touch = Touch {
             domain: &Domain { axes: [AxisBoundary::Open; 2] },
             walls,
             grids: &grids,
-            displacements: &rest,
-            velocities: &rest,
+            poses: &poses,
+            velocities: &vec![(Vector::zeros(), 0.0); walls.len()],
             range: 0.5,
             friction: 0.4,
         };

@@ -1,7 +1,10 @@
-//! A wall of facets of any shape, at rest, moved along by a table of times, or under a load.
+//! A wall of facets of any shape, at rest, moved along by a table of times, turned, or under a load.
 
 use super::facet::Facet;
+use super::pose::Pose;
+use super::time_table::{is_sound, slope_at, value_at};
 use super::wall_load::WallLoad;
+use super::wall_turn::WallTurn;
 use crate::vector::Vector;
 use crate::weakly_compressible::walls::Surface;
 
@@ -27,13 +30,15 @@ pub struct BackingParticle<const D: usize> {
     pub volume: f64,
 }
 
-/// Displacements of a wall over time, linear between the times and constant beyond them, and a load that moves it further.
+/// Displacements of a wall over time, linear between the times and constant beyond them, a turn, and a load that moves it further.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Motion<const D: usize> {
     /// Times `[s]`, rising.
     pub times: Vec<f64>,
     /// Displacements `[m]` at these times, as many.
     pub displacements: Vec<Vector<D>>,
+    /// Turn, before it is displaced.
+    pub turn: Option<WallTurn<D>>,
     /// Load, under which it moves freely.
     pub load: Option<WallLoad<D>>,
 }
@@ -42,47 +47,41 @@ impl<const D: usize> Motion<D> {
     /// Whether it ever moves.
     #[must_use]
     pub fn is_rest(&self) -> bool {
-        self.times.len() < 2 && self.load.is_none()
+        self.times.len() < 2 && self.load.is_none() && self.turn.is_none()
     }
 
     /// Displacement by the table at a time `[m]`.
     #[must_use]
     pub fn displacement(&self, time: f64) -> Vector<D> {
-        let after = self.times.partition_point(|&t| t <= time);
-        let zero = Vector::zeros();
-        match after {
-            0 => self.displacements.first().copied().unwrap_or(zero),
-            k if k == self.times.len() => self.displacements.last().copied().unwrap_or(zero),
-            k => {
-                let part = (time - self.times[k - 1]) / (self.times[k] - self.times[k - 1]);
-                self.displacements[k - 1] + (self.displacements[k] - self.displacements[k - 1]) * part
-            }
-        }
+        value_at(&self.times, &self.displacements, time)
     }
 
-    /// Velocity by the table right after a time `[m/s]`.
+    /// Pose by the tables at a time.
+    #[must_use]
+    pub fn pose(&self, time: f64) -> Pose<D> {
+        let turned = self.turn.as_ref().map_or_else(Pose::start, |turn| turn.pose(time));
+        Pose { shift: self.displacement(time), ..turned }
+    }
+
+    /// Velocity by the table right after a time `[m/s]`, without that of the turn.
     #[must_use]
     pub fn velocity(&self, time: f64) -> Vector<D> {
-        let after = self.times.partition_point(|&t| t <= time);
-        if after == 0 || after == self.times.len() { Vector::zeros() } else { self.slope(after) }
+        slope_at(&self.times, &self.displacements, time).unwrap_or_else(Vector::zeros)
     }
 
-    fn slope(&self, k: usize) -> Vector<D> {
-        (self.displacements[k] - self.displacements[k - 1]) / (self.times[k] - self.times[k - 1])
-    }
-
-    /// The largest speed that it ever has relative to a velocity `[m/s]`, between the first and the last of its times.
+    /// The largest speed that it ever has relative to a velocity `[m/s]`, between the first and the last of its times, without that of the
+    /// turn.
     #[must_use]
     pub fn largest_speed(&self, frame: &Vector<D>) -> f64 {
         let rest = if self.times.len() < 2 { frame.norm() } else { 0.0 };
-        (1..self.times.len()).map(|k| (self.slope(k) - frame).norm()).fold(rest, f64::max)
+        let slopes = self.times.iter().filter_map(|time| slope_at(&self.times, &self.displacements, *time));
+        slopes.map(|slope| (slope - frame).norm()).fold(rest, f64::max)
     }
 
     /// Whether times rise and all is finite.
     #[must_use]
     pub fn is_sound(&self) -> bool {
-        let finite = self.times.iter().all(|t| t.is_finite()) && self.displacements.iter().all(|d| d.sum().is_finite());
-        finite && self.times.len() == self.displacements.len() && self.times.windows(2).all(|pair| pair[1] > pair[0])
+        is_sound(&self.times, &self.displacements)
     }
 }
 
@@ -97,6 +96,15 @@ pub struct FacetWall<const D: usize> {
     pub roughness: Surface,
     /// Motion from the start.
     pub motion: Motion<D>,
+}
+
+impl<const D: usize> FacetWall<D> {
+    /// The largest speed of its rim by its turn `[m/s]`.
+    #[must_use]
+    pub fn rim_speed(&self) -> f64 {
+        let corners = self.facets.iter().flat_map(|facet| &facet.corners);
+        self.motion.turn.as_ref().map_or(0.0, |turn| turn.largest_speed(corners))
+    }
 }
 
 impl FacetWall<2> {
@@ -121,7 +129,7 @@ mod tests {
     fn a_table_of_times_moves_between_its_rows_and_rests_beyond_them() {
         let up = |y: f64| Vector::<2>::new(0.0, y);
         let displacements = vec![up(0.0), up(0.3), up(0.3)];
-        let motion = Motion { times: vec![0.1, 0.2, 0.4], displacements, load: None };
+        let motion = Motion { times: vec![0.1, 0.2, 0.4], displacements, ..Motion::default() };
         assert!(motion.is_sound() && !motion.is_rest());
         for (time, place, speed) in [(0.0, 0.0, 0.0), (0.15, 0.15, 3.0), (0.3, 0.3, 0.0), (9.0, 0.3, 0.0)] {
             assert!((motion.displacement(time) - up(place)).norm() < 1e-15, "{time}");
@@ -129,7 +137,7 @@ mod tests {
         }
         assert!((motion.largest_speed(&up(0.0)) - 3.0).abs() < 1e-14);
         assert!((motion.largest_speed(&up(2.0)) - 2.0).abs() < 1e-14, "where it rests");
-        let backwards = Motion { times: vec![0.2, 0.1], displacements: vec![up(0.0); 2], load: None };
+        let backwards = Motion { times: vec![0.2, 0.1], displacements: vec![up(0.0); 2], ..Motion::default() };
         assert!(!backwards.is_sound() && Motion::<2>::default().is_rest());
     }
 

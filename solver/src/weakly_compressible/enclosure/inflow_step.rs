@@ -49,7 +49,7 @@ impl<const D: usize> BoundaryState<D> {
     ) -> Result<f64, OutOfRange> {
         particles.keep_real();
         let count = self.inlets[inlet].cells.len();
-        let first = particles.flow_count() + self.first_particles[inlet];
+        let first = particles.flow_count() + self.first_particles[self.first_inlet() + inlet];
         self.check_way(inlet, particles, model, first..first + count)?;
         let free = InflowRow { inlet: inlet as u32, first: self.next_identity(), time, beyond };
         let opening = &self.inlets[inlet];
@@ -99,10 +99,10 @@ impl<const D: usize> BoundaryState<D> {
     fn step_back(&mut self, inlet: usize, particles: &mut Particles<D>, time: f64) {
         let wall = self.first_inlet() + inlet;
         let place = self.place(wall, time);
-        let way = place - self.displacements[wall];
-        self.displacements[wall] = place;
+        let way = place - self.poses[wall].shift;
+        self.poses[wall].shift = place;
         let velocity = self.velocity(wall, time);
-        particles.move_walls(self.plane_walls + wall, &[way], |_| velocity);
+        particles.move_walls(self.plane_walls + wall, &[way], |_, _| velocity);
     }
 
     /// Refuses a row that would be pressed into material that does not give way, or that is one too many.

@@ -54,6 +54,8 @@ pub(super) struct Constants {
     /// C h² `[m²]` of the viscous bound.
     pub(super) viscous_step: f64,
     pub(super) viscosity_switch: ViscositySwitch,
+    /// Whether walls turn.
+    pub(super) turns: bool,
     pub(super) artificial_stress: Option<ArtificialStress>,
 }
 
@@ -70,6 +72,7 @@ impl Constants {
             reference_density: model.equation_of_state.reference_density,
             viscous_step: model.numerics.viscous_courant * smoothing_length * smoothing_length,
             viscosity_switch: model.numerics.viscosity_switch,
+            turns: model.turns,
             artificial_stress: model.artificial_stress,
         }
     }

@@ -21,6 +21,27 @@ use std::ops::Range;
 /// The owner of particles that belong to no facet wall.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
 
+/// Impulse of a wall on the flow, and its moment about the axis that the wall turns about.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct WallImpulse<const D: usize> {
+    pub(crate) linear: Vector<D>,
+    pub(crate) angular: f64,
+}
+
+impl<const D: usize> WallImpulse<D> {
+    /// None yet.
+    pub(crate) fn none() -> Self {
+        Self { linear: Vector::zeros(), angular: 0.0 }
+    }
+
+    /// Adds an impulse `[kg m/s]` with a lever `[m]`.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, impulse: Vector<D>, lever: &Vector<D>) {
+        self.angular += impulse.dot(lever);
+        self.linear += impulse;
+    }
+}
+
 /// The facet walls that impulses are booked to.
 pub(crate) struct Booking<'a, const D: usize> {
     /// The facet wall of every particle in the arrays.
@@ -28,7 +49,7 @@ pub(crate) struct Booking<'a, const D: usize> {
     /// Number of facet walls.
     pub(crate) walls: usize,
     /// Impulses, block by block of flow particles and in each wall by wall `[kg m/s]`.
-    pub(crate) impulses: &'a mut [Vector<D>],
+    pub(crate) impulses: &'a mut [WallImpulse<D>],
 }
 
 /// Adds the impulses of the wall particles in a step.
@@ -52,7 +73,7 @@ struct Pass<'a, const D: usize> {
     owners: &'a [u32],
     block: usize,
     time_step: f64,
-    out: &'a mut [Vector<D>],
+    out: &'a mut [WallImpulse<D>],
 }
 
 impl<const D: usize> LanePass for Pass<'_, D> {
@@ -114,7 +135,7 @@ impl<const D: usize> Pass<'_, D> {
                         scaled(weight * P::widen(drag), &widened::<V, P, D>(&unexplained)),
                     )
                 };
-                book(owners, &w.raw()[..count], &from_stress, &from_control, self.out);
+                book(owners, particles, &w.raw()[..count], (&from_stress, &from_control), self.out);
             }
         }
     }
@@ -124,10 +145,10 @@ impl<const D: usize> Pass<'_, D> {
 #[inline(always)]
 fn book<V: Lanes, const D: usize>(
     owners: &[u32],
+    particles: &Particles<D>,
     partners: &[u32],
-    from_stress: &[V; D],
-    from_control: &[V; D],
-    out: &mut [Vector<D>],
+    (from_stress, from_control): (&[V; D], &[V; D]),
+    out: &mut [WallImpulse<D>],
 ) {
     let (mut stress, mut control) = ([Vector::zeros(); LANES], [Vector::zeros(); LANES]);
     store_vector(from_stress, &mut stress);
@@ -135,7 +156,8 @@ fn book<V: Lanes, const D: usize>(
     for (lane, partner) in partners.iter().enumerate() {
         let owner = owners[*partner as usize];
         if owner != NO_OWNER {
-            out[owner as usize] += stress[lane] + control[lane];
+            let lever = &particles.walls.lever[*partner as usize - particles.flow_count()];
+            out[owner as usize].add(stress[lane] + control[lane], lever);
         }
     }
 }

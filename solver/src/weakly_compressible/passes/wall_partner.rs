@@ -7,7 +7,7 @@ use super::pair_weights::PairParts;
 use super::precision::Precision;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::algebra::{difference, dot, load_tensor, matrix_product, product, scaled};
-use crate::lanes::{LANES, LaneIndices, LaneNumbers, Lanes, Real};
+use crate::lanes::{LANES, LaneIndices, LaneNumbers, Lanes, Real, gather_tensors};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{hourglass, no_slip, stress_divergence, wall_slip};
@@ -55,7 +55,8 @@ pub(super) struct WallPair<V, const D: usize> {
 }
 
 /// A group as its walls see it.
-pub(super) struct WallGroup<V, const D: usize> {
+pub(super) struct WallGroup<'a, V, const D: usize> {
+    particles: &'a Particles<D>,
     own: FlowPartner<V, D>,
     correction: [[V; D]; D],
     viscous: ViscousPart<V, D>,
@@ -71,12 +72,12 @@ struct ViscousPart<V, const D: usize> {
     twice_viscosity: V,
 }
 
-impl<S: Real, const D: usize> WallGroup<S, D> {
+impl<'a, S: Real, const D: usize> WallGroup<'a, S, D> {
     /// Of the particles at `places`, whose velocity gradient is whole, unlike in a record.
     #[inline(always)]
     pub(super) fn of<V: Lanes, P: Precision<Lanes<V> = S>>(
         model: &Model<D>,
-        particles: &Particles<D>,
+        particles: &'a Particles<D>,
         mut own: FlowPartner<S, D>,
         places: Range<usize>,
     ) -> Self {
@@ -98,7 +99,7 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
                 viscous.stress[i][j] = P::narrow(share * stress[i][j]);
             }
         }
-        Self { own, correction, viscous }
+        Self { particles, own, correction, viscous }
     }
 
     /// With no more resistance of all wall partners together than an explicit step bears.
@@ -140,16 +141,28 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
         records: &Records<P>,
         indices: &LaneIndices<'_>,
     ) -> WallPair<S, D> {
-        let Self { own, correction, viscous } = self;
+        let Self { particles, own, correction, viscous } = self;
         let wall = WallPartner::of::<P>(&records.load::<V>(const { Momentum::<P, D>::QUADS }, indices));
         let r = records.apart::<V, D>(&own.position, &wall.position);
         let beta = wall_slip::factor(&r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
-        let slip = scaled(beta, &difference(&own.velocity, &wall.velocity));
+        let (mut slip, mut gradient) = (difference(&own.velocity, &wall.velocity), own.velocity_gradient);
+        if constants.turns {
+            // seen from the wall, whose velocity is that of its surface in front of its particle
+            let places = indices.places_from(particles.flow_count());
+            let spin = gather_tensors::<V, D>(&particles.walls.spin, &places.indices());
+            let way = difference(&r, &scaled(wall.depth, &wall.normal));
+            for i in 0..D {
+                let spin = spin[i].map(|part| P::narrow(part));
+                slip[i] = slip[i] - dot(&spin, &way);
+                gradient[i] = difference(&gradient[i], &spin);
+            }
+        }
+        let slip = scaled(beta, &slip);
         let mut traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, &r);
         let corrected = product(correction, &r);
         let rough = S::splat(1.0) - wall.smoothness;
         let wall_pressure = S::splat(constants.reference_density) * wall.pressure_speed * wall.pressure_speed;
-        let shear = no_slip::slip_at_middle(&slip, beta, &own.velocity_gradient, &wall.normal, &r);
+        let shear = no_slip::slip_at_middle(&slip, beta, &gradient, &wall.normal, &r);
         let rub = no_slip::traction(viscous.twice_viscosity, &shear, &wall.normal, &r, &corrected);
         for i in 0..D {
             let extrapolated = dot(&wall.stress[i], &corrected) + wall_pressure * corrected[i];
@@ -159,7 +172,7 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
         // a wall of grains takes the share of the flow
         let speed_sum = own.pressure_speed + if constants.of_grains { own.pressure_speed } else { wall.pressure_speed };
         let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum);
-        let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal);
+        let unexplained = hourglass::unexplained_at_wall(&slip, &gradient, &r, &wall.normal);
         WallPair { traction, drag, unexplained }
     }
 }

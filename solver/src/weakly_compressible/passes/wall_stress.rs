@@ -2,7 +2,7 @@
 //! particle w with the weights V_f W_wf. A wall far from any flow carries nothing.
 
 use super::PairData;
-use crate::lanes::algebra::{difference, dot, splat_vector, zero_tensor};
+use crate::lanes::algebra::{difference, dot, product, splat_vector, zero_tensor};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_tensors, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Tensor;
@@ -15,7 +15,8 @@ use crate::weakly_compressible::walls::WallTreatment;
 /// Wall particles a block of the parallel loops over walls.
 pub(super) const BLOCK: usize = 64;
 
-/// Pressure `[Pa]`, deviatoric stress `[Pa]` and corrected stress of every wall particle.
+/// Pressure `[Pa]`, deviatoric stress `[Pa]` and corrected stress of every wall particle. At a wall that turns, the flow is pulled by gravity less
+/// the acceleration of the wall, as in (22): its spin times its velocity.
 pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>, pairs: &mut PairData<D>) {
     let (first, count) = (particles.flow_count(), particles.wall_count());
     // the flow's values are read while the walls' are made, so these go to a buffer of their own first
@@ -58,7 +59,10 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             let places = group.own.places_from(particles.flow_count());
             let places = places.indices();
             let normal = gather_vectors::<V, D>(&particles.walls.normal, &places);
-            let sums = sums::<V, D>(model, particles, &group, &normal);
+            let spin = gather_tensors::<V, D>(&particles.walls.spin, &places);
+            let velocity = gather_vectors::<V, D>(&particles.walls.velocity, &places);
+            let pull = difference(&splat_vector::<V, D>(&model.gravity), &product(&spin, &velocity));
+            let sums = sums::<V, D>(model, particles, &group, (&normal, &pull));
             let smoothness: V = gather(&particles.walls.smoothness, &places);
             let stresses = terms::mirrored(&sums.stress, smoothness, &normal);
             let wet = terms::wet_inverse(sums.weight);
@@ -83,14 +87,13 @@ fn sums<V: Lanes, const D: usize>(
     model: &Model<D>,
     particles: &Particles<D>,
     group: &NeighbourGroup<'_>,
-    normal: &[V; D],
+    (normal, pull): (&[V; D], &[V; D]),
 ) -> WallSums<V, D> {
     let weight_of_gravity = model.equation_of_state.reference_density * model.gravity.norm() * model.spacing;
     let full_increment = V::splat((0.5 * weight_of_gravity).max(f64::MIN_POSITIVE));
     let smallest_pressure = V::splat((1e-3 * weight_of_gravity).max(f64::MIN_POSITIVE));
     let grows = model.rheology.is_solid();
-    let gravity = splat_vector::<V, D>(&model.gravity);
-    let gravity_along_normal = dot(&gravity, normal);
+    let pull_along_normal = dot(pull, normal);
     let place = gather_vectors::<V, D>(&particles.position, &group.own);
     let mut sums = WallSums { weight: V::splat(0.0), pressure: V::splat(0.0), stress: zero_tensor::<V, D>() };
     for f in group.flow {
@@ -104,8 +107,7 @@ fn sums<V: Lanes, const D: usize>(
         match model.numerics.wall_treatment {
             WallTreatment::Extrapolated => {
                 let distance = dot(&r, normal);
-                let growth =
-                    terms::growth_along_normal(pressure, density, gravity_along_normal, distance, full_increment);
+                let growth = terms::growth_along_normal(pressure, density, pull_along_normal, distance, full_increment);
                 let extrapolated = pressure + growth;
                 sums.pressure = sums.pressure + weight * extrapolated;
                 let stress = gather_tensors::<V, D>(&particles.stress, &f);
@@ -119,7 +121,7 @@ fn sums<V: Lanes, const D: usize>(
                 }
             }
             WallTreatment::Paper => {
-                let growth = terms::growth_along_gravity(density, &r, &gravity);
+                let growth = terms::growth_along_gravity(density, &r, pull);
                 sums.pressure = sums.pressure + weight * (pressure + growth);
             }
         }

@@ -14,8 +14,8 @@ use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
-use crate::weakly_compressible::passes::records;
-use crate::weakly_compressible::passes::shell_impulse::{Booking, NO_OWNER};
+use crate::weakly_compressible::passes::records::{self, Records};
+use crate::weakly_compressible::passes::shell_impulse::{Booking, NO_OWNER, WallImpulse};
 use crate::weakly_compressible::terms::{no_slip, wall_slip};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
 use crate::weakly_compressible::walls::Images;
@@ -55,7 +55,7 @@ struct ReactionPass<'a, const D: usize> {
     owners: &'a [u32],
     block: usize,
     support: &'a mut [Vector<D>],
-    out: &'a mut [Vector<D>],
+    out: &'a mut [WallImpulse<D>],
 }
 
 impl<const D: usize> LanePass for ReactionPass<'_, D> {
@@ -110,7 +110,8 @@ impl<const D: usize> LanePass for ReactionPass<'_, D> {
                 for (impulse, partner) in impulses.iter().zip(&partners[..count]) {
                     let owner = owners.get(*partner as usize).copied().unwrap_or(NO_OWNER);
                     if owner != NO_OWNER {
-                        out[owner as usize] += impulse;
+                        let lever = &particles.walls.lever[*partner as usize - particles.flow_count()];
+                        out[owner as usize].add(*impulse, lever);
                     }
                 }
             }

@@ -16,6 +16,19 @@ struct Image<const D: usize> {
     shift: Vector<D>,
 }
 
+impl<const D: usize> Image<D> {
+    /// A tensor of its source, as the image has it.
+    fn tensor(value: &Tensor<D>, image: &Self) -> Tensor<D> {
+        let mut copy = *value;
+        for i in 0..D {
+            for j in 0..D {
+                copy[(i, j)] *= image.sign[i] * image.sign[j];
+            }
+        }
+        copy
+    }
+}
+
 /// All images; image k stands at `first + k` in every array.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Images<const D: usize> {
@@ -181,20 +194,16 @@ impl<const D: usize> Images<D> {
     }
 
     pub(crate) fn copy_tensors(&self, field: &mut [Tensor<D>]) {
-        self.copy(field, |value, image| {
-            let mut copy = *value;
-            for i in 0..D {
-                for j in 0..D {
-                    copy[(i, j)] *= image.sign[i] * image.sign[j];
-                }
-            }
-            copy
-        });
+        self.copy(field, Image::tensor);
     }
 
     /// Fills in the images of wall particles in an array that leaves out the flow: walls, images and sentinel.
     pub(crate) fn copy_wall_vectors(&self, field: &mut [Vector<D>]) {
         self.copy_of_walls(field, |value, image| image.sign.component_mul(value));
+    }
+
+    pub(crate) fn copy_wall_tensors(&self, field: &mut [Tensor<D>]) {
+        self.copy_of_walls(field, Image::tensor);
     }
 
     pub(crate) fn copy_wall_scalars(&self, field: &mut [f64]) {

@@ -35,6 +35,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             let sound = wall
                 .check(self.spacing, (upper - lower).max())
                 .and_then(|()| check_motion(&wall.motion(), S::Wall::GIVEN_BY))
+                .and_then(|()| self.check_turn(wall))
                 .and_then(|()| self.check_load(wall));
             sound.map_err(|error| error.within(&format!("walls[{k}]")))?;
         }
@@ -88,8 +89,16 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let down = self.down();
         for (k, gauge) in self.gauges.iter().enumerate() {
             let within = |error: ParameterError| error.within(&format!("gauges[{k}]"));
-            if let Measurand::Force { wall } | Measurand::Position { wall } = gauge.measure(&down) {
-                names::check_wall("wall", wall, self.barriers().map(|(name, _)| name)).map_err(within)?;
+            match gauge.measure(&down) {
+                Measurand::Force { wall } | Measurand::Position { wall } => {
+                    names::check_wall("wall", wall, self.barriers().map(|(name, _)| name)).map_err(within)?;
+                }
+                Measurand::Turn { wall } if !self.turns(wall) => {
+                    let remedy = "give the wall a `turn` (rate 0 holds it), or correct the name";
+                    let (value, rule) = (format!("\"{wall}\""), "a wall with a `turn`");
+                    return Err(within(ParameterError::field("wall", value, rule, remedy)));
+                }
+                _ => {}
             }
             gauge.check(self.spacing, &down).and_then(|()| self.check_direction(gauge)).map_err(within)?;
             self.check_place(k, gauge)?;
@@ -108,7 +117,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
                 Measurand::Flux(_) => 0.0,
                 Measurand::Depth(depth) if depth.direction[axis].abs() < 1e-9 => 0.5 * depth.width,
                 Measurand::Probe(probe) => probe.reach * self.spacing,
-                Measurand::Depth(_) | Measurand::Force { .. } | Measurand::Position { .. } => continue,
+                Measurand::Depth(_) => continue,
+                Measurand::Force { .. } | Measurand::Position { .. } | Measurand::Turn { .. } => continue,
             };
             let places = gauge.places();
             let all = |way: f64, plane: f64| places.iter().all(|place| way * (place[axis] - plane) > margin);
@@ -248,25 +258,37 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     }
 }
 
-/// Refuses tables that do not begin at rest, and times that do not rise. `given_by` names the places that a wall is given by.
 fn check_motion<const D: usize>(motion: &Motion<D>, given_by: &str) -> Result<(), ParameterError> {
-    let start = motion.times.first().zip(motion.displacements.first());
-    if let Some((&time, place)) = start.filter(|(time, place)| **time != 0.0 || **place != Vector::<D>::zeros()) {
-        let row = |time: f64, place: &Vector<D>| shown(std::iter::once(&time).chain(place));
-        let (value, rest) = (row(time, place), row(0.0, &Vector::zeros()));
+    check_table("motion", &motion.times, &motion.displacements, given_by)
+}
+
+/// Refuses tables that do not begin at rest, and times that do not rise. `given_by` names the places that a wall is given by.
+pub(super) fn check_table<const N: usize>(
+    field: &str,
+    times: &[f64],
+    values: &[Vector<N>],
+    given_by: &str,
+) -> Result<(), ParameterError> {
+    let refused = |row: Option<usize>, value: String, rule: &str, remedy: &str| {
+        let field = row.map_or_else(|| field.to_owned(), |row| format!("{field}[{row}]"));
+        Err(ParameterError::field(&field, value, rule, remedy))
+    };
+    let start = times.first().zip(values.first());
+    if let Some((&time, value)) = start.filter(|(time, value)| **time != 0.0 || **value != Vector::<N>::zeros()) {
+        let row = |time: f64, value: &Vector<N>| shown(std::iter::once(&time).chain(value));
+        let (value, rest) = (row(time, value), row(0.0, &Vector::zeros()));
         let remedy = format!("the {given_by} are where the wall is at the start");
-        return Err(ParameterError::field("motion[0]", value, &rest, &remedy));
+        return refused(Some(0), value, &rest, &remedy);
     }
-    if motion.times.len() == 1 {
-        return Err(ParameterError::field("motion", "one row", "two rows or more", "leave it out for a wall at rest"));
+    if times.len() == 1 {
+        return refused(None, "one row".to_owned(), "two rows or more", "leave it out for a wall at rest");
     }
-    if let Some(row) = motion.times.windows(2).position(|pair| pair[1] <= pair[0]).map(|row| row + 1) {
-        let (field, before) = (format!("motion[{row}]"), motion.times[row - 1]);
-        let (value, rule) =
-            (format!("at {} s", motion.times[row]), format!("later than the row above it, at {before} s"));
-        let is_jump = motion.times[row] == before;
+    if let Some(row) = times.windows(2).position(|pair| pair[1] <= pair[0]).map(|row| row + 1) {
+        let before = times[row - 1];
+        let (value, rule) = (format!("at {} s", times[row]), format!("later than the row above it, at {before} s"));
+        let is_jump = times[row] == before;
         let remedy = if is_jump { "give the jump a time" } else { "sort the rows by their times" };
-        return Err(ParameterError::field(&field, value, &rule, remedy));
+        return refused(Some(row), value, &rule, remedy);
     }
     Ok(())
 }
@@ -280,7 +302,7 @@ mod tests {
         let motion = |rows: &[[f64; 4]]| Motion {
             times: rows.iter().map(|row| row[0]).collect(),
             displacements: rows.iter().map(|row| Vector::<3>::new(row[1], row[2], row[3])).collect(),
-            load: None,
+            ..Motion::default()
         };
         let checked = |rows: &[[f64; 4]]| check_motion(&motion(rows), "corners").map_err(|error| error.to_string());
         assert_eq!(checked(&[]), Ok(()));

@@ -17,6 +17,8 @@ pub(crate) struct Memory<const D: usize> {
     places: Vec<(Vector<D>, Vector<D>)>,
     /// Impulses of the walls then `[kg m/s]`.
     impulses: Vec<Vector<D>>,
+    /// Their moments then `[kg m²/s]`.
+    moments: Vec<f64>,
     /// Mass that has crossed each gauge's opening `[kg]`.
     crossed: Vec<f64>,
     /// Side of a front gauge's line on which material counts, where a bed lies on the other; gauge by gauge.
@@ -66,8 +68,9 @@ impl<const D: usize> Memory<D> {
         for (index, &identity) in particles.identity.iter().enumerate() {
             places[identity as usize] = (particles.position[index], particles.velocity[index]);
         }
-        let impulses = simulation.facet_wall_impulses().to_vec();
-        Self { time: simulation.time(), places, impulses, crossed: Vec::new(), above_beds: Vec::new() }
+        let (impulses, moments) = (simulation.facet_wall_impulses(), simulation.facet_wall_moments());
+        let (impulses, moments) = (impulses.to_vec(), moments.to_vec());
+        Self { time: simulation.time(), places, impulses, moments, ..Self::default() }
     }
 
     /// The values of the gauge at this place among all, one a column.
@@ -89,7 +92,7 @@ impl<const D: usize> Memory<D> {
             Measurand::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
             Measurand::Probe(probe) => probe.values(simulation, periods, snapshot),
             Measurand::Position { wall } => {
-                let place = place_of(wall).map(|k| simulation.facet_wall_displacements()[k]);
+                let place = place_of(wall).map(|k| simulation.facet_wall_poses()[k].shift);
                 place.unwrap_or_else(Vector::zeros).iter().copied().collect()
             }
             Measurand::Force { wall } => {
@@ -97,6 +100,13 @@ impl<const D: usize> Memory<D> {
                 let before = self.impulses.get(k).copied().unwrap_or_else(Vector::zeros);
                 // the wall feels the opposite of what it gives
                 (before - simulation.facet_wall_impulses()[k]).iter().map(|&change| per_time(change)).collect()
+            }
+            Measurand::Turn { wall } => {
+                let Some(k) = place_of(wall) else { return vec![0.0; 2] };
+                let before = self.moments.get(k).copied().unwrap_or(0.0);
+                let turn = simulation.facet_walls()[k].motion.turn.as_ref();
+                let angle = turn.map_or(0.0, |turn| turn.angle(simulation.time()));
+                vec![per_time(before - simulation.facet_wall_moments()[k]), angle]
             }
             Measurand::Flux(opening) => {
                 let crossed = opening.crossed(simulation, periods, &self.places, self.time);

@@ -123,6 +123,7 @@ mod tests {
             both_sides: false,
             motion: Vec::new(),
             load: None,
+            turn: None,
         };
         let tier: PlaneFlow = quick();
         let none = DomainSide::None;

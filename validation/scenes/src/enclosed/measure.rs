@@ -35,6 +35,11 @@ pub enum Measurand<'a, const D: usize> {
         /// Name of the wall.
         wall: &'a str,
     },
+    /// Torque of the flow on a wall that turns, about its axis, and its angle.
+    Turn {
+        /// Name of the wall.
+        wall: &'a str,
+    },
     /// Mass that crosses an opening.
     Flux(Opening<D>),
 }

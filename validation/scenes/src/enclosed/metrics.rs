@@ -172,7 +172,7 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                 mean_force::<S, D>().of(&own, size(&means))
             }
             // what it reads has no one quantity: studies take its columns
-            Measurand::Probe(_) | Measurand::Position { .. } => continue,
+            Measurand::Probe(_) | Measurand::Position { .. } | Measurand::Turn { .. } => continue,
             Measurand::Flux(_) => {
                 let steady = discharge(&data.time, first).map(|(mean, error)| {
                     discharge_of::<S, D>().of(&own, mean).with_snapshot_tolerance(0.1, 0.0).known_to(

@@ -70,6 +70,9 @@ fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<G
             let along = |axis: &&str| column(&format!("displacement along {axis}"), "displacement", "m");
             ["x", "y", "z"].iter().take(D).map(along).collect()
         }
+        Measurand::Turn { .. } => {
+            vec![column("torque", "torque", &force.replacen('N', "N m", 1)), column("angle", "angle", "rad")]
+        }
         Measurand::Flux(_) => {
             vec![column("mass that has crossed", "mass", mass), column("mean flux since the last row", "flux", flux)]
         }

@@ -74,6 +74,7 @@ where
     for wall in &mut resting.enclosure.walls {
         // it keeps its table, so that its corners are not joined to those of walls at rest
         wall.motion.displacements.fill(Vector::zeros());
+        wall.motion.turn.iter_mut().for_each(|turn| turn.angles.fill(Vector::zeros()));
     }
     for inlet in &mut resting.enclosure.inlets {
         inlet.rate = FeedRate::closed();
@@ -105,8 +106,8 @@ where
         }
         elapsed += simulation.time();
         let snapshot = simulation.snapshot();
-        for (wall, way) in resting.enclosure.walls.iter_mut().zip(simulation.facet_wall_displacements()) {
-            wall.motion.load.iter_mut().for_each(|load| load.travel = way.dot(&load.direction));
+        for (wall, pose) in resting.enclosure.walls.iter_mut().zip(simulation.facet_wall_poses()) {
+            wall.motion.load.iter_mut().for_each(|load| load.travel = pose.shift.dot(&load.direction));
         }
         check_held(&resting, &scene.flow.position, &snapshot.position, (peak, rest))?;
         let flow = &mut resting.flow;

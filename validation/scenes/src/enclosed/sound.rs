@@ -17,7 +17,7 @@ const USUAL_STIFFNESS: f64 = 50.0;
 /// Cosine between gravity and the normal of a facet below which the facet is parallel to gravity `[-]`: a slope of 1 in 1000.
 const PARALLEL: f64 = 1e-3;
 /// Time over which bodies and inlets keep their velocity `[s]`: a power of two, so that the velocity is not rounded.
-const FOR_EVER: f64 = 1_099_511_627_776.0;
+pub(super) const FOR_EVER: f64 = 1_099_511_627_776.0;
 /// Share by which inlets are taken to be faster `[-]`, so that rounding leaves them below Mach 0.2.
 const MARGIN: f64 = 1e-9;
 /// Relative difference of two squared speeds that tables of displacements round to at most `[-]`.
@@ -85,9 +85,15 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             let is_mirror = matches!(boundary, AxisBoundary::Mirror { .. });
             material.iter().filter(move |_| is_mirror).map(move |motion| 4.0 * motion.velocity(0.0)[axis].powi(2))
         });
+        let rim_speed = |wall: &S::Wall| wall.motion().turn.map_or(0.0, |_| wall.facet_wall().rim_speed());
+        let rims = std::iter::repeat_n(0.0, material.len()).chain(self.walls.iter().map(rim_speed));
+        let others: Vec<_> = material.iter().chain(&walls).zip(rims.chain(std::iter::repeat(0.0))).collect();
         let pairs = material.iter().enumerate().flat_map(|(k, one)| {
-            let others = material[k + 1..].iter().chain(&walls);
-            others.map(|other| largest_difference(one, other))
+            let meeting = |(other, rim): &(&Motion<D>, f64)| {
+                let square = largest_difference(one, other);
+                square + rim * (2.0 * square.sqrt() + rim)
+            };
+            others[k + 1..].iter().map(meeting)
         });
         pairs.chain(of_images).fold(0.0, f64::max)
     }
@@ -115,7 +121,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let steady = |velocity: Vector<D>| vec![Vector::zeros(), velocity * FOR_EVER];
         bodies
             .chain(fed)
-            .map(|velocity| Motion { times: vec![0.0, FOR_EVER], displacements: steady(velocity), load: None })
+            .map(|velocity| Motion { times: vec![0.0, FOR_EVER], displacements: steady(velocity), ..Motion::default() })
             .collect()
     }
 
@@ -226,6 +232,7 @@ mod tests {
             both_sides: false,
             motion,
             load: None,
+            turn: None,
         }
     }
 

@@ -4,6 +4,7 @@ use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 use bagnold_solver::weakly_compressible::enclosure::facet_tree::FacetTree;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::FacetWall;
+use bagnold_solver::weakly_compressible::enclosure::pose::Pose;
 use bagnold_solver::weakly_compressible::enclosure::{BoundarySet, Inlet};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 
@@ -91,8 +92,9 @@ pub(super) fn behind<const D: usize>(simulation: &Simulation<D>) -> u64 {
     let surfaces: Vec<_> = walls.map(|one| FacetSurface::of(std::iter::once(one), range)).collect();
     let particles = simulation.particles();
     let count = particles.position[..particles.flow_count()].iter().filter(|place| {
-        let mut walls = surfaces.iter().zip(simulation.facet_wall_displacements());
-        walls.any(|(surface, moved)| surface.nearest(&(*place - moved)).is_some_and(|wall| wall.distance < 0.0))
+        let mut walls = surfaces.iter().zip(simulation.facet_wall_poses());
+        let start = |pose: &Pose<D>| pose.back(place, |way| way);
+        walls.any(|(surface, pose)| surface.nearest(&start(pose)).is_some_and(|wall| wall.distance < 0.0))
     });
     count.count() as u64
 }

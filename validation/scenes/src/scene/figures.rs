@@ -19,18 +19,18 @@ pub(super) fn pictures(parameters: &PlaneFlow, frames: &[Frame]) -> Figure {
         panel.field = Some(Field::new("|v| [m/s]", parameters.spacing, (0.0, fastest), points, frame.speeds()));
         for wall in &parameters.walls {
             let facet_wall = wall.facet_wall();
-            let moved = facet_wall.motion.displacement(frame.time);
-            panel.series.push(Series::new("", Mark::Reference, 0, outline(&facet_wall.facets, &moved)));
+            let pose = facet_wall.motion.pose(frame.time);
+            panel.series.push(Series::new("", Mark::Reference, 0, outline(&facet_wall.facets, |end| pose.place(end))));
         }
         panel
     });
     Figure::new("pictures", "The material in the colours of its speed, and its walls, dashed.", panels.collect())
 }
 
-/// The corners of segments in a row, moved by a displacement.
-fn outline(facets: &[Facet<2>], moved: &Vector<2>) -> Vec<(f64, f64)> {
+/// The corners of segments in a row, at their places.
+fn outline(facets: &[Facet<2>], place: impl Fn(&Vector<2>) -> Vector<2>) -> Vec<(f64, f64)> {
     let ends = facets.iter().take(1).map(|facet| facet.corners[0]).chain(facets.iter().map(|facet| facet.corners[1]));
-    ends.map(|end| (end[0] + moved[0], end[1] + moved[1])).collect()
+    ends.map(|end| place(&end)).map(|end| (end[0], end[1])).collect()
 }
 
 /// The sites in the colours of their values between walls, inlets and the lines of gauges, each by its name.
@@ -39,7 +39,7 @@ pub(super) fn setup(parameters: &PlaneFlow, sites: &[(Vector<2>, f64)]) -> Vec<P
     let point = |place: &Vector<2>| (place[0], place[1]);
     for (slot, wall) in parameters.walls.iter().enumerate() {
         let facets = wall.facet_wall().facets;
-        panel.series.push(Series::new(wall.name(), Mark::Line, slot, outline(&facets, &Vector::zeros())));
+        panel.series.push(Series::new(wall.name(), Mark::Line, slot, outline(&facets, |end| *end)));
         // a short stroke from its longest segment to where the flow is
         let longest = facets.iter().max_by(|a, b| {
             let length = |facet: &Facet<2>| (facet.corners[1] - facet.corners[0]).norm();
@@ -64,7 +64,7 @@ pub(super) fn setup(parameters: &PlaneFlow, sites: &[(Vector<2>, f64)]) -> Vec<P
                 vec![point(&(depth.at - way)), point(&(depth.at + way))]
             }
             Measurand::Probe(probe) => vec![point(&probe.at)],
-            Measurand::Force { .. } | Measurand::Position { .. } => continue,
+            Measurand::Force { .. } | Measurand::Position { .. } | Measurand::Turn { .. } => continue,
         };
         panel.series.push(Series::new(gauge.name(), Mark::Reference, 0, points));
     }

@@ -70,6 +70,13 @@ pub enum PlaneGauge {
         /// Name of the wall.
         wall: String,
     },
+    /// Torque of the flow on a wall that turns, about its point or axis as the angle counts, and that angle.
+    Turn {
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
+        name: String,
+        /// Name of the wall.
+        wall: String,
+    },
     /// Mass that crosses a line from its right to its left, seen along it: together, and per time.
     Flux {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
@@ -88,6 +95,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
         | Self::Probe { name, .. }
         | Self::Force { name, .. }
         | Self::Position { name, .. }
+        | Self::Turn { name, .. }
         | Self::Flux { name, .. }) = self;
         name
     }
@@ -109,6 +117,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
             Self::Probe { at, spacings, .. } => Measurand::Probe(Probe { at: vector(at), reach: 0.5 * spacings }),
             Self::Force { wall, .. } => Measurand::Force { wall },
             Self::Position { wall, .. } => Measurand::Position { wall },
+            Self::Turn { wall, .. } => Measurand::Turn { wall },
             Self::Flux { from, to, .. } => {
                 let (corner, to): (Vector<2>, Vector<2>) = (vector(from), vector(to));
                 let along = to - corner;
@@ -122,7 +131,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
         match self {
             Self::Front { from, to, .. } | Self::Flux { from, to, .. } => vec![vector(from), vector(to)],
             Self::Depth { at, .. } | Self::Probe { at, .. } => vec![vector(at)],
-            Self::Force { .. } | Self::Position { .. } => Vec::new(),
+            Self::Force { .. } | Self::Position { .. } | Self::Turn { .. } => Vec::new(),
         }
     }
 
@@ -132,7 +141,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
                 let to = vector::<2>(to);
                 check_line(&to, (to - vector::<2>(from)).norm(), spacing, "")
             }
-            Self::Depth { .. } | Self::Probe { .. } | Self::Force { .. } | Self::Position { .. } => Ok(()),
+            _ => Ok(()),
         }
     }
 }

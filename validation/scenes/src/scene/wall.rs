@@ -4,7 +4,7 @@ use super::PlaneVector;
 use super::body::check_crossing;
 use crate::case::ParameterError;
 use crate::enclosed::setting::{self, vector};
-use crate::enclosed::{DomainSide, GivenLoad, sides};
+use crate::enclosed::{DomainSide, GivenLoad, GivenTurn, sides};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion, Side};
 use bagnold_solver::weakly_compressible::walls::Surface;
@@ -48,6 +48,9 @@ pub struct WallLine {
     /// Load, under which the wall moves freely along one direction; none where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<GivenLoad<PlaneVector>>,
+    /// Turn about a point; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn: Option<GivenTurn<PlaneVector>>,
 }
 
 fn left() -> FlowSide {
@@ -86,6 +89,7 @@ impl setting::SceneWall<2> for WallLine {
         Motion {
             times: self.motion.iter().map(|row| row.0).collect(),
             displacements: self.motion.iter().map(|row| Vector::<2>::new(row.1, row.2)).collect(),
+            turn: self.turn.as_ref().map(|turn| turn.around(vector(&turn.about), [Vector::x(), Vector::y()])),
             load: None,
         }
     }
@@ -115,6 +119,7 @@ impl setting::SceneWall<2> for WallLine {
             let remedy = "check the unit of `spacing` and of the corners";
             return Err(ParameterError::field("points", value, &rule, remedy));
         }
+        self.turn.iter().try_for_each(GivenTurn::check)?;
         check_crossing(&self.points, self.closed)
     }
 }
@@ -158,6 +163,7 @@ mod tests {
             both_sides: false,
             motion: Vec::new(),
             load: None,
+            turn: None,
         };
         let normals = |points, flow| -> Vec<Vector<2>> {
             let mut normals: Vec<Vector<2>> =

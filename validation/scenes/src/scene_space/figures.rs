@@ -54,8 +54,8 @@ pub(super) fn pictures(parameters: &SpaceFlow, frames: &[Frame]) -> Figure {
         let mut panel = Panel::new(&title, axes[view.right].clone(), axes[view.up].clone());
         panel.field = Some(material(parameters.spacing, frame, view, fastest));
         let moved = walls.iter().flat_map(|(facet_wall, edges)| {
-            let moved = facet_wall.motion.displacement(frame.time);
-            edges.iter().map(move |edge| edge.map(|end| end + moved))
+            let pose = facet_wall.motion.pose(frame.time);
+            edges.iter().map(move |edge| edge.map(|end| pose.place(&end)))
         });
         for edge in moved.take(MOST_EDGES) {
             let mut points = edge.map(|end| (end[view.right], end[view.up]));

@@ -73,6 +73,13 @@ pub enum SpaceGauge {
         /// Name of the wall.
         wall: String,
     },
+    /// Torque of the flow on a wall that turns, about its point or axis as the angle counts, and that angle.
+    Turn {
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
+        name: String,
+        /// Name of the wall.
+        wall: String,
+    },
     /// Mass that crosses a parallelogram towards the side from which its corners are seen against the clock: together,
     /// and per time.
     Flux {
@@ -90,6 +97,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
         | Self::Probe { name, .. }
         | Self::Force { name, .. }
         | Self::Position { name, .. }
+        | Self::Turn { name, .. }
         | Self::Flux { name, .. }) = self;
         name
     }
@@ -114,6 +122,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
             Self::Probe { at, spacings, .. } => Measurand::Probe(Probe { at: vector(at), reach: 0.5 * spacings }),
             Self::Force { wall, .. } => Measurand::Force { wall },
             Self::Position { wall, .. } => Measurand::Position { wall },
+            Self::Turn { wall, .. } => Measurand::Turn { wall },
             Self::Flux { corners, .. } => {
                 let [corner, one, other] = edges(corners);
                 let normal = one.cross(&other);
@@ -132,7 +141,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 vec![corner, corner + one, corner + other, corner + one + other]
             }
             Self::Depth { at, .. } | Self::Probe { at, .. } => vec![vector(at)],
-            Self::Force { .. } | Self::Position { .. } => Vec::new(),
+            Self::Force { .. } | Self::Position { .. } | Self::Turn { .. } => Vec::new(),
         }
     }
 
@@ -153,7 +162,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 let (value, rule) = (format!("{}, …", shown(&corner)), "three corners that are not in line");
                 Err(ParameterError::field("corners", value, rule, "give a corner and the two next to it"))
             }
-            Self::Depth { .. } | Self::Probe { .. } | Self::Force { .. } | Self::Position { .. } => Ok(()),
+            _ => Ok(()),
         }
     }
 }

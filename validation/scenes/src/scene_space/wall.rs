@@ -4,7 +4,7 @@ use super::SpaceVector;
 use super::openings::Openings;
 use crate::case::ParameterError;
 use crate::enclosed::setting::{self, shown, vector};
-use crate::enclosed::{DomainSide, GivenLoad, shapes, sides};
+use crate::enclosed::{DomainSide, GivenLoad, GivenTurn, shapes, sides};
 use crate::input::PackedTriangles;
 use crate::output::caution;
 use bagnold_number::four_digits;
@@ -12,6 +12,7 @@ use bagnold_solver::parameter::above;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion};
 use bagnold_solver::weakly_compressible::enclosure::largest_fan;
+use bagnold_solver::weakly_compressible::enclosure::wall_turn::WallTurn;
 use bagnold_solver::weakly_compressible::walls::Surface;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -65,6 +66,9 @@ pub struct SpaceWall {
     /// Load, under which the wall moves freely along one direction; none where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<GivenLoad<SpaceVector>>,
+    /// Turn about a axis; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn: Option<GivenTurn<(SpaceVector, SpaceVector)>>,
 }
 
 /// Triangles around one corner at most: particles near it look at all of them.
@@ -140,6 +144,7 @@ impl setting::SceneWall<3> for SpaceWall {
         Motion {
             times: self.motion.iter().map(|row| row.0).collect(),
             displacements: self.motion.iter().map(|row| Vector::<3>::new(row.1, row.2, row.3)).collect(),
+            turn: self.turn.as_ref().map(around),
             load: None,
         }
     }
@@ -206,6 +211,14 @@ impl setting::SceneWall<3> for SpaceWall {
                 return refused(&format!("boxes[{k}]"), value, rule, "exchange what is not");
             }
         }
+        if let Some(turn) = &self.turn {
+            turn.check()?;
+            let (from, to) = turn.about;
+            if !((vector::<3>(&to) - vector::<3>(&from)).norm() > 0.0) {
+                let value = format!("{} m twice", shown(&vector::<3>(&from)));
+                return refused("turn.about", value, "two points of the axis", "move one of them along the axis");
+            }
+        }
         let triangles = self.corners();
         if let Some((at, count)) = largest_fan(&triangles).filter(|(_, count)| *count > LARGEST_FAN) {
             let value = format!("a fan of {count} triangles around {} m", shown(&at));
@@ -220,6 +233,15 @@ impl setting::SceneWall<3> for SpaceWall {
         }
         Ok(())
     }
+}
+
+/// The turn for the solver about an axis by two of its points.
+fn around(turn: &GivenTurn<(SpaceVector, SpaceVector)>) -> WallTurn<3> {
+    let [from, to] = [turn.about.0, turn.about.1].map(|point| vector::<3>(&point));
+    let axis = (to - from).normalize();
+    let across = Vector::ith(axis.iamin(), 1.0);
+    let first = (across - axis * axis.dot(&across)).normalize();
+    turn.around(from, [first, axis.cross(&first)])
 }
 
 /// The faces of a box, seen from without.
@@ -288,6 +310,7 @@ mod tests {
                 both_sides: false,
                 motion: Vec::new(),
                 load: None,
+                turn: None,
             }
         }
     }
