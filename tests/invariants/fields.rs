@@ -211,7 +211,7 @@ fn fields_that_do_not_fit_are_refused() {
     );
     assert_eq!(
         message(|scene| scene.rheology = GRAINS),
-        "the flow gives 240 particles a field, but its law `mu-i` keeps none; leave the field out"
+        "the flow gives 240 particles a field, but its law `mu-i` has none; leave the field out"
     );
     let operator = message(|scene| {
         scene.numerics = Numerics { momentum_operator: MomentumOperator::Pairwise, ..Numerics::paper() };

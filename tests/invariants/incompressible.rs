@@ -242,7 +242,10 @@ fn invalid_states_and_parameters() {
         });
         scene.solid_fraction = SolidFraction::Given(layer);
     };
-    assert_eq!(message(full), "`solid_fraction` is 1, but must be in [0, 1); grains fill 0 to 0.64 of the space");
+    assert_eq!(
+        message(full),
+        "`solid_fraction` is 1, but must be at least 0 and below 1; give 0 to 0.64, the share of the space that grains fill"
+    );
     assert_eq!(
         message(|scene| sediment(scene).filling.truncate(1)),
         "the flow's filling has 1 entries, but there are 32 positions"

@@ -168,7 +168,7 @@ fn memories_that_do_not_fit_are_refused() {
     );
     assert_eq!(
         message(|scene| scene.rheology = GRAINS),
-        "the flow gives 240 particles a memory, but its law `mu-i` keeps nothing beside its field; leave the memory out"
+        "the flow gives 240 particles internal variables, but its law `mu-i` has none beside its field; leave `memory` out"
     );
     // a state of another law
     let saved = simulation(labelled([20, 12]));
@@ -229,12 +229,11 @@ fn a_law_that_declares_what_cannot_be_kept_is_refused() {
     assert_eq!(
         message("declares-four"),
         "`too_many` of the law `declares-four` is number 4, but must be among the first 3 beside the law's field; leave \
-         out what follows from the others"
+         out quantities that follow from the others"
     );
     assert_eq!(
         message("declares-twice"),
-        "`first` of the law `declares-twice` is kept twice, but must be kept once; give each a name of its own, by which files \
-         and pages tell them"
+        "`first` of the law `declares-twice` is declared twice, but must be declared once; give each another name"
     );
     assert_eq!(
         message("declares-outside"),
@@ -243,7 +242,7 @@ fn a_law_that_declares_what_cannot_be_kept_is_refused() {
     );
     assert_eq!(
         message("declares-spreading"),
-        "`second` of the law `declares-spreading` is one that spreads, but must be without diffusion, because a law's field \
-         alone spreads; make it the law's field"
+        "`second` of the law `declares-spreading` is a diffusing quantity, but must be without diffusion, because only a law's \
+         field diffuses; make it the law's field"
     );
 }

@@ -162,5 +162,5 @@ fn mixtures_that_are_not_served_are_refused() {
     let mut fed = crate::invariants::inlets::fed();
     fed.rheology = submerged();
     let fed = Simulation::new(fed).expect_err("refused").to_string();
-    assert!(fed.starts_with("`inlets` is given, but must be absent with a pore liquid"), "{fed}");
+    assert!(fed.starts_with("`inlets`: not supported with a pore liquid"), "{fed}");
 }

@@ -32,7 +32,7 @@ fn an_empty_scene() {
 fn too_many_particles() {
     assert_eq!(
         SceneError::TooLarge(40_000_000).to_string(),
-        "the scene has 40000000 particles, more than the neighbour list can address"
+        "the scene has 40000000 particles, more than the neighbour list can address; use larger particles"
     );
 }
 
@@ -97,8 +97,8 @@ fn laws_that_are_no_laws() {
     };
     assert_eq!(
         message(|scene| scene.rheology = Rheology::MuI(law)),
-        "`limiting_friction` is 0.3, but must be finite and at least static_friction; give the friction of fast \
-         flow, or static_friction itself for a law without rate dependence"
+        "`limiting_friction` is 0.3, but must be finite and at least `static_friction`; give the friction of fast \
+         flow, or `static_friction` itself for a law without rate dependence"
     );
 }
 
@@ -153,8 +153,7 @@ fn numerics_out_of_range() {
 fn an_implicit_viscous_step_without_a_viscous_divergence() {
     assert_eq!(
         message(|scene| scene.numerics.viscous_step = ViscousStep::Implicit),
-        "`viscous_step` is implicit, but must be explicit with a law by return mapping; its stress bounds no time step; \
-         regularise the law, or choose \"explicit\""
+        "`viscous_step` is implicit, but must be explicit with an elastoplastic law; choose \"explicit\", or a regularised law"
     );
     assert_eq!(
         message(|scene| {

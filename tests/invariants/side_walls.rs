@@ -217,11 +217,11 @@ fn invalid_side_walls_are_refused() {
     };
     assert_eq!(
         message(SideWalls { width: 0.0, ..WALLS }),
-        "`side_walls.width` is 0, but must be positive and finite; give the inner width of the channel in metres, or leave `side_walls` out for none"
+        "`side_walls.width` is 0, but must be positive and finite; give the inner width of the channel in metres, or leave `side_walls` out"
     );
     assert_eq!(
         message(SideWalls { friction: -0.1, ..WALLS }),
-        "`side_walls.friction` is -0.1, but must be between 0 and 2; it is the tangent of the angle of friction: 0.3 for one of 17°"
+        "`side_walls.friction` is -0.1, but must be between 0 and 2; give the tangent of the friction angle: 0.3 for 17°"
     );
     let angle = message(SideWalls { friction: 22.0, ..WALLS });
     assert!(angle.starts_with("`side_walls.friction` is 22, but must be between 0 and 2"), "{angle}");
@@ -229,6 +229,6 @@ fn invalid_side_walls_are_refused() {
     space.side_walls = Some(WALLS);
     assert_eq!(
         space.check().expect_err("refused").to_string(),
-        "`side_walls` is given, 0.1 m apart, but must be absent in three dimensions; walls in space are walls of the scene; leave `side_walls` out"
+        "`side_walls`: for two-dimensional scenes only; leave it out, and give the side walls under `walls`"
     );
 }

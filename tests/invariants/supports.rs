@@ -129,7 +129,7 @@ fn a_smooth_wall_is_refused_where_the_operators_know_rough_ones_only() {
     assert_eq!(
         refused(Numerics { momentum_operator: MomentumOperator::Pairwise, ..default }),
         "`momentum_operator` is pairwise, but must be \"single-divergence\" or \"uncorrected-divergence\" with a smooth \
-         wall, such as a gate; the pairwise operators know rough walls only; choose one of these, or leave the gate out"
+         wall, such as a gate; the pairwise operators support rough walls only; choose one of these, or leave the gate out"
     );
     assert_eq!(
         refused(Numerics { wall_treatment: WallTreatment::Paper, ..default }),

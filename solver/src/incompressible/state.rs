@@ -30,7 +30,7 @@ pub struct State<const D: usize> {
     pub columns: Option<Columns<D>>,
     /// Implicit velocities.
     pub system: VelocitySystem<D>,
-    /// Pressures.
+    /// Pressure projection with its work arrays.
     pub projection: Projection<D>,
     pub(super) shifts: Vec<Vector<D>>,
     /// Time `[s]`.

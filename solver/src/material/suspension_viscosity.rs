@@ -13,10 +13,10 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct SuspensionViscosity {
     /// Intrinsic viscosity a `[-]`, ≥ 0: 5/2 of spheres (Einstein 1906); 0 for a fluid that does not feel the grains.
-    #[schemars(transform = between(0.0, 100.0, "2.5 for spheres"))]
+    #[schemars(transform = between(0.0, 100.0, "give 2.5 for spheres"))]
     pub intrinsic: f64,
     /// Solid fraction φ_m `[-]` of the pole, above φ_b.
-    #[schemars(transform = between(0.1, 1.0, "0.62 for grains"))]
+    #[schemars(transform = between(0.1, 1.0, "give 0.62 for grains"))]
     pub largest_fraction: f64,
     /// Solid fraction φ_b `[-]` from which on the denominator no longer falls.
     pub bounded_from: f64,
@@ -46,7 +46,7 @@ impl SuspensionViscosity {
     #[must_use]
     pub fn pole_problem(&self) -> Option<ParameterProblem> {
         let bounded = (0.0..=0.999 * self.largest_fraction).contains(&self.bounded_from);
-        let (rule, remedy) = ("from 0 to below largest_fraction", "0.59 below 0.62");
+        let (rule, remedy) = ("at least 0 and below `largest_fraction`", "give 0.59 for a `largest_fraction` of 0.62");
         (!bounded).then(|| ParameterProblem::new("bounded_from", self.bounded_from, rule, remedy))
     }
 }

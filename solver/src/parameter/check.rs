@@ -205,7 +205,7 @@ fn broken_bound(rule: &Schema, value: f64) -> Option<String> {
     (!holds).then(|| match (least, above, most, below) {
         (Some(least), _, Some(most), _) => format!("between {} and {}", number(least), number(most)),
         (_, Some(above), Some(most), _) => format!("above {} and at most {}", number(above), number(most)),
-        (_, Some(above), _, Some(below)) => format!("inside ({}, {})", number(above), number(below)),
+        (_, Some(above), _, Some(below)) => format!("above {} and below {}", number(above), number(below)),
         (_, Some(above), ..) => format!("finite and greater than {}", number(above)),
         (Some(0.0), ..) if finite => "finite and not negative".to_owned(),
         (Some(least), ..) => format!("at least {}", number(least)),
@@ -229,9 +229,9 @@ fn kind_in_words(shape: &Shape<'_>) -> String {
         Shape::List(_) => "an array in brackets, such as [1.0, 2.0] or [\"newtonian\"]",
         Shape::Tuple(items) => return format!("an array of {} values", items.len()),
         Shape::Number => "a number",
-        Shape::Integer { signed: false } => "a whole number in digits alone, not negative",
+        Shape::Integer { signed: false } => "a whole number without sign, decimal point or exponent",
         Shape::Integer { signed: true } => "a whole number",
-        Shape::Text => "a string",
+        Shape::Text => "a text in quotes",
         Shape::Flag => "true or false",
         Shape::Any => "a value",
     }

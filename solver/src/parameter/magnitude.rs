@@ -91,8 +91,8 @@ impl Walk {
         let unit = self.units.first()?;
         let (_, least, most) = BY_UNIT.iter().find(|(known, ..)| known == unit)?;
         let (shown, remedy) = match unit.as_str() {
-            "-" => (String::new(), "check the number's exponent".to_owned()),
-            unit => (format!(" {unit}"), format!("check the number: its unit is {unit}")),
+            "-" => (String::new(), "correct the exponent of the number".to_owned()),
+            unit => (format!(" {unit}"), format!("give the value in {unit}")),
         };
         Some(json!({
             "minimum": -most,
@@ -108,7 +108,7 @@ fn rule_of_count() -> Value {
     json!({
         "maximum": LARGEST_COUNT,
         "x-rule": format!("at most {LARGEST_COUNT}"),
-        "x-remedy": "check the number: it is a count",
+        "x-remedy": "give a smaller whole number",
     })
 }
 
@@ -158,20 +158,20 @@ mod tests {
     fn a_unit_bounds_what_no_rule_does() {
         assert_eq!(said(""), "None");
         assert_eq!(said("seed = 9007199254740993\noffset = -1.0"), "None");
-        let metres = "but must be between 1e-9 and 1e5 m in absolute value; check the number: its unit is m";
+        let metres = "but must be between 1e-9 and 1e5 m in absolute value; give the value in m";
         assert_eq!(said("depth = 1e308"), format!("`depth` is 1e308, {metres}"));
         assert_eq!(said("offset = nan"), format!("`offset` is NaN, {metres}"));
         assert_eq!(said("offset = -1e-308"), format!("`offset` is -1e-308, {metres}"));
         assert_eq!(said("offset = 9000000000000000000"), format!("`offset` is 9000000000000000000, {metres}"));
         assert_eq!(
             said("angles = [24.0, 1e-308]"),
-            "`angles[1]` is 1e-308, but must be between 1e-6 and 3.6e2 ° in absolute value; check the number: its unit is °"
+            "`angles[1]` is 1e-308, but must be between 1e-6 and 3.6e2 ° in absolute value; give the value in °"
         );
         assert_eq!(said("stops = [[1e6, 20.0]]"), format!("`stops[0][0]` is 1000000, {metres}"));
         assert!(said("stops = [[1.0, 1e4]]").starts_with("`stops[0][1]` is 10000, but"));
         assert_eq!(
             said("columns = 1000000000000"),
-            "`columns` is 1000000000000, but must be at most 1000000; check the number: it is a count"
+            "`columns` is 1000000000000, but must be at most 1000000; give a smaller whole number"
         );
     }
 

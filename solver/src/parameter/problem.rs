@@ -1,16 +1,16 @@
-//! A parameter outside its range.
+//! A parameter outside its range, or one that does not fit the others.
 
 /// A parameter that breaks a rule, and what to do about it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{field}` is {value}, but must be {rule}; {remedy}")]
+#[error("`{field}`{}; {remedy}", defect(value, rule))]
 pub struct ParameterProblem {
     /// Dotted path of the field, with the index in a list: `slopes[1]`.
     pub field: String,
     /// The value as written.
     pub value: String,
-    /// The rule that it breaks, completing "must be …".
+    /// The rule that it breaks, completing "must be …"; empty where the value is the whole defect, "`field`: `value`; `remedy`".
     pub rule: String,
-    /// Remedy.
+    /// Instruction to the user, such as "give it in metres".
     pub remedy: String,
 }
 
@@ -32,6 +32,12 @@ impl ParameterProblem {
         self.field = format!("{group}.{}", self.field);
         self
     }
+}
+
+/// Value and rule of a message after the name of the field, or the value alone where there is no rule.
+#[must_use]
+pub fn defect(value: &str, rule: &str) -> String {
+    if rule.is_empty() { format!(": {value}") } else { format!(" is {value}, but must be {rule}") }
 }
 
 /// Most characters of a value that a message shows.

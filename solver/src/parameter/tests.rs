@@ -104,8 +104,8 @@ fn values_outside_their_range_are_named_with_rule_and_remedy() {
 #[test]
 fn values_of_another_type_are_named_with_the_type() {
     assert_eq!(said("depth = true"), "depth is Some(\"true\"), not a number");
-    assert_eq!(said("rows = -3"), "rows is Some(\"-3\"), not a whole number in digits alone, not negative");
-    assert_eq!(said("rows = 3.5"), "rows is Some(\"3.5\"), not a whole number in digits alone, not negative");
+    assert_eq!(said("rows = -3"), "rows is Some(\"-3\"), not a whole number without sign, decimal point or exponent");
+    assert_eq!(said("rows = 3.5"), "rows is Some(\"3.5\"), not a whole number without sign, decimal point or exponent");
     assert_eq!(said("start = \"reset\""), "start is Some(\"\\\"reset\\\"\"), not one of `rest`, `given`");
     assert_eq!(said("start = \"given\""), "start is Some(\"\\\"given\\\"\"), not a table of fields");
     assert_eq!(said("start = { given = { speed = \"x\" } }"), "start.given.speed is Some(\"\\\"x\\\"\"), not a number");

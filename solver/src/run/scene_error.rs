@@ -19,7 +19,7 @@ pub enum SceneError {
         expected: usize,
     },
     /// A field of particles whose law keeps none.
-    #[error("the flow gives {found} particles a field, but its law `{law}` keeps none; leave the field out")]
+    #[error("the flow gives {found} particles a field, but its law `{law}` has none; leave the field out")]
     NoField {
         /// The law.
         law: &'static str,
@@ -28,7 +28,7 @@ pub enum SceneError {
     },
     /// A memory of particles whose law keeps nothing beside its field.
     #[error(
-        "the flow gives {found} particles a memory, but its law `{law}` keeps nothing beside its field; leave the memory out"
+        "the flow gives {found} particles internal variables, but its law `{law}` has none beside its field; leave `memory` out"
     )]
     NoMemory {
         /// The law.
@@ -64,6 +64,6 @@ pub enum SceneError {
         least: f64,
     },
     /// More particles than the neighbour list can address.
-    #[error("the scene has {0} particles, more than the neighbour list can address")]
+    #[error("the scene has {0} particles, more than the neighbour list can address; use larger particles")]
     TooLarge(usize),
 }

@@ -222,12 +222,12 @@ impl Numerics {
                 "momentum_operator",
                 operator,
                 "\"single-divergence\" or \"uncorrected-divergence\" with a smooth wall, such as a gate",
-                "the pairwise operators know rough walls only; choose one of these, or leave the gate out",
+                "the pairwise operators support rough walls only; choose one of these, or leave the gate out",
             ));
         }
         (self.wall_treatment == WallTreatment::Paper).then(|| {
             let rule = "\"extrapolated\" with a smooth wall, such as a gate";
-            let remedy = "the paper's walls are rough; choose this, or leave the gate out";
+            let remedy = "the paper's walls are always rough; choose \"extrapolated\", or leave the gate out";
             ParameterProblem::new("wall_treatment", "paper", rule, remedy)
         })
     }
@@ -243,8 +243,8 @@ impl Numerics {
             return Some(ParameterProblem::new(
                 "viscous_step",
                 "implicit",
-                "explicit with a law by return mapping",
-                "its stress bounds no time step; regularise the law, or choose \"explicit\"",
+                "explicit with an elastoplastic law",
+                "choose \"explicit\", or a regularised law",
             ));
         }
         self.pairwise_operator().map(|_| {
@@ -258,7 +258,7 @@ impl Numerics {
     pub fn field_problem(&self, law: &Rheology) -> Option<ParameterProblem> {
         law.field()?;
         self.pairwise_operator().map(|operator| {
-            let rule = "\"single-divergence\", \"uncorrected-divergence\" or \"by-law\" with a law that keeps a field";
+            let rule = "\"single-divergence\", \"uncorrected-divergence\" or \"by-law\" with a law that has a field";
             let remedy = "choose one of these, or a law without a field, such as \"mu-i\"";
             ParameterProblem::new("momentum_operator", operator, rule, remedy)
         })

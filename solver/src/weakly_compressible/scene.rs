@@ -226,19 +226,21 @@ pub fn pore_problem(
     (has_inlets, has_side_walls): (bool, bool),
 ) -> Option<ParameterProblem> {
     if has_inlets {
-        let remedy = "give bodies only: what is fed has no pore pressure of its own";
-        return Some(ParameterProblem::new("inlets", "given", "absent with a pore liquid", remedy));
+        let defect = "not supported with a pore liquid, because fed material has no pore pressure";
+        return Some(ParameterProblem::new("inlets", defect, "", "leave them out, and give all material as `bodies`"));
     }
     if has_side_walls {
-        let remedy = "leave them out: their friction would take the pressure of the liquid for that of grains";
-        return Some(ParameterProblem::new("side_walls", "given", "absent with a pore liquid", remedy));
+        let defect = "not supported with a pore liquid, whose pressure would count as pressure of the grains";
+        return Some(ParameterProblem::new("side_walls", defect, "", "leave them out"));
     }
     let sound_speed = (bulk_modulus / pore.mixture_density()).sqrt();
     let least = pore.least_length(bulk_modulus, numerics.acoustic_courant / sound_speed) / numerics.smoothing_ratio;
     (spacing < least).then(|| {
-        let rule = format!("at least {least:.3e} m, because pores drain within a step");
-        let remedy = "raise the spacing, lower the stiffness, or check `grain_diameter` and `liquid_viscosity`";
-        ParameterProblem::new("spacing", spacing, &rule, remedy)
+        // rounded upwards
+        let least = format!("{:.3e}", 1.0005 * least).parse().unwrap_or(least);
+        let rule = format!("at least {least} m for a stable time step of the pore pressure");
+        let remedy = "raise it, lower `stiffness`, or check `grain_diameter` and `liquid_viscosity`";
+        ParameterProblem::new("spacing", format!("{spacing} m"), &rule, remedy)
     })
 }
 

@@ -27,7 +27,7 @@ impl DrivenGrains<2> {
         let mut state = State::of(scene)?;
         measure(&mut state);
         let State { scene, phases, columns: Some(columns), .. } = state else {
-            let (rule, remedy) = ("grains that dilate", "give the sediment a dilatancy");
+            let (rule, remedy) = ("that of dilating grains", "give the sediment a dilatancy");
             return Err(ParameterProblem::new("sediment pressure", "another", rule, remedy).into());
         };
         Ok(Self { scene, fluid: phases.fluid, columns, failed: false })

@@ -38,7 +38,7 @@ pub struct LaneList<const D: usize> {
 pub enum Sources {
     /// The same particles: none is its own neighbour.
     Same,
-    /// Others.
+    /// Other particles, such as those of the other phase.
     Other,
 }
 

@@ -45,7 +45,7 @@ pub struct Phase<const D: usize> {
     pub(crate) spacing: f64,
     /// Density of the phase's material `[kg/m³]`.
     pub(crate) density: f64,
-    /// Kernel.
+    /// Smoothing kernel of the phase.
     pub kernel: Kernel<D>,
     /// Sums of the lattice.
     pub lattice: LatticeSums,

@@ -6,7 +6,7 @@ pub(crate) enum Gauge {
     /// A surface.
     #[default]
     Surface,
-    /// Nothing.
+    /// No pressure is fixed.
     Free,
 }
 

@@ -29,7 +29,8 @@ impl<const D: usize> IncompressibleScene<D> {
             let strata = layer.strata();
             for &value in &strata.solid_fraction {
                 if !(0.0..1.0).contains(&value) {
-                    let (rule, remedy) = ("in [0, 1)", "grains fill 0 to 0.64 of the space");
+                    let (rule, remedy) =
+                        ("at least 0 and below 1", "give 0 to 0.64, the share of the space that grains fill");
                     refuse(Some(ParameterProblem::new("solid_fraction", value, rule, remedy)))?;
                 }
             }
@@ -58,7 +59,7 @@ impl<const D: usize> IncompressibleScene<D> {
             None if averaged => ("solid_fraction", "averaged", "given where no grains dilate"),
             _ => return Ok(()),
         };
-        refuse(Some(ParameterProblem::new(field, value, rule, "change one of both")))
+        refuse(Some(ParameterProblem::new(field, value, rule, "change one of the two")))
     }
 }
 
@@ -70,7 +71,7 @@ impl<const D: usize> Sediment<D> {
         }
         refuse(self.law.parameter_problem())?;
         refuse(self.law.field().map(|field| {
-            let rule = format!("a law that keeps no field: this model does not carry a {} along", field.name);
+            let rule = format!("a law without a field, because this model does not advect the {}", field.name);
             ParameterProblem::new("law", self.law.name(), &rule, "choose a local law, such as \"root-mu-i\"")
         }))?;
         if let SedimentLoad::Packed { buoyant_weight, .. } = self.load

@@ -17,7 +17,7 @@ impl<const D: usize> IncompressibleScene<D> {
                     "mean_flux",
                     "zero",
                     "\"free\" unless the continuity is that of the mixture",
-                    "choose one of both",
+                    "change one of the two",
                 ),
             };
         }
@@ -33,6 +33,6 @@ impl<const D: usize> IncompressibleScene<D> {
         } else {
             None
         };
-        problem.map_or(Ok(()), |rule| choice("continuity", "mixture", rule, "change one of both"))
+        problem.map_or(Ok(()), |rule| choice("continuity", "mixture", rule, "change one of the two"))
     }
 }

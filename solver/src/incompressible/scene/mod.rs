@@ -47,7 +47,7 @@ pub enum Bed {
 /// Closure of the turbulence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Turbulence {
-    /// None.
+    /// Laminar flow, without an eddy viscosity.
     Laminar,
     /// A mixing length over the height above a level `[m]`.
     MixingLength {
@@ -79,7 +79,7 @@ pub struct Fluid<const D: usize> {
     pub kinematic_viscosity: f64,
     /// Turbulence.
     pub turbulence: Turbulence,
-    /// Bed.
+    /// Lower boundary of the water.
     pub bed: Bed,
     /// Body force per mass `[m/s²]`.
     pub gravity: Vector<D>,
@@ -119,6 +119,6 @@ pub struct IncompressibleScene<const D: usize> {
     pub solid_fraction: SolidFraction,
     /// Boundaries: periodic or open.
     pub domain: Domain<D>,
-    /// Numerics.
+    /// Numerical scheme.
     pub numerics: ProjectionNumerics,
 }

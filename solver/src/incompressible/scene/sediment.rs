@@ -97,7 +97,7 @@ pub struct Sediment<const D: usize> {
     pub pressure: SedimentPressure,
     /// Drag law.
     pub drag: DragLaw,
-    /// Its form.
+    /// Form of the drag in the momentum equations.
     pub drag_form: DragForm,
     /// Smoothing length of the drag `[m]`.
     pub drag_smoothing_length: f64,

@@ -23,7 +23,7 @@ pub struct CoulombBingham {
     #[schemars(transform = not_negative("give the yield stress in Pa, or 0 for grains without cohesion"))]
     pub yield_stress: f64,
     /// Friction coefficient μ_c of Coulomb on the pressure `[-]`; 0 is Bingham's law.
-    #[schemars(transform = not_negative("0.6 for sand and gravel, 0 for none"))]
+    #[schemars(transform = not_negative("give 0.6 for sand and gravel, or 0 for no friction"))]
     pub friction: f64,
     /// Plastic viscosity μ `[Pa·s]`: the slope of τ over |γ̇| in flow.
     #[schemars(transform = not_negative("give the viscosity of the flowing material in Pa·s"))]
@@ -32,7 +32,7 @@ pub struct CoulombBingham {
     #[schemars(transform = positive("give about 1/100 of the typical shear rate in 1/s"))]
     pub regularisation_rate: f64,
     /// Largest viscosity η_max `[Pa·s]` of the yield: what a deep bed at rest is bounded by.
-    #[schemars(transform = positive("give a viscosity in Pa·s at which the bed stands still, such as 1e4"))]
+    #[schemars(transform = positive("give a viscosity in Pa·s at which the bed hardly creeps, such as 1e4"))]
     pub largest_viscosity: f64,
 }
 

@@ -275,7 +275,7 @@ fn dilation_that_makes_no_law_is_refused() {
         (problem.field, problem.rule)
     };
     let more = SofteningDruckerPrager { peak_dilation: 0.61, ..SAND };
-    assert_eq!(problem(more), ("peak_dilation".to_owned(), "at most peak_friction".to_owned()));
+    assert_eq!(problem(more), ("peak_dilation".to_owned(), "at most `peak_friction`".to_owned()));
     let (field, rule) = problem(SofteningDruckerPrager { peak_dilation: 0.5, dilation_strain: None, ..SAND });
     assert!(field == "peak_dilation" && rule.contains("residual_friction"), "{rule}");
     for bad in [f64::NAN, -0.1, 12.0] {

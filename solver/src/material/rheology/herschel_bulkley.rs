@@ -26,7 +26,7 @@ pub struct HerschelBulkley {
     #[schemars(transform = not_negative("give the consistency in Pa·sⁿ"))]
     pub consistency: f64,
     /// Flow index n `[-]`: thinning below 1, thickening above.
-    #[schemars(transform = up_to(2.0, "give the exponent of the shear rate; 1 is a Bingham plastic"))]
+    #[schemars(transform = up_to(2.0, "give the exponent of the shear rate, such as 1 for a Bingham plastic"))]
     pub flow_index: f64,
     /// Regularisation rate γ_r `[1/s]`: well below the shear rates of interest.
     #[schemars(transform = above(0.0, "give about 1/100 of the typical shear rate in 1/s"))]

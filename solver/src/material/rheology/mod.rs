@@ -603,8 +603,8 @@ fn rising_friction(static_friction: f64, limiting_friction: f64) -> Option<Param
     // Written so that NaN is refused.
     let rises = limiting_friction >= static_friction && limiting_friction.is_finite();
     (!rises).then(|| {
-        let remedy = "give the friction of fast flow, or static_friction itself for a law without rate dependence";
-        ParameterProblem::new("limiting_friction", limiting_friction, "finite and at least static_friction", remedy)
+        let remedy = "give the friction of fast flow, or `static_friction` itself for a law without rate dependence";
+        ParameterProblem::new("limiting_friction", limiting_friction, "finite and at least `static_friction`", remedy)
     })
 }
 

@@ -31,15 +31,15 @@ law_of_grains! {
     /// Dry grains whose flow reaches over a few diameters: a fluidity that diffuses.
     pub struct NonlocalMuI {
         /// Amplitude A `[-]` of the cooperation among grains; 0 is the local law.
-        #[schemars(transform = between(0.0, 2.0, "0.48 for glass beads, 0 for the local law"))]
+        #[schemars(transform = between(0.0, 2.0, "give 0.48 for glass beads, or 0 for the local law"))]
         pub cooperativity: f64,
         /// Relaxation time t_0 `[s]` of the fluidity; steady flows do not know it.
-        #[schemars(transform = between(1e-7, 1e-2, "0.0001 is short against every flow; a longer one delays its start"))]
+        #[schemars(transform = between(1e-7, 1e-2, "give 0.0001 s, shorter than any flow; a longer time delays the start of flow"))]
         pub relaxation_time: f64,
         /// The fluidity at the free surface.
         pub surface: FieldBoundary,
         /// Inertial number `[-]` of the fluidity that grains beyond μ_s have at least, without which nothing at rest would start.
-        #[schemars(transform = between(0.0, 1e-3, "0.000001 starts what is pushed beyond its friction; 0 leaves rest at rest"))]
+        #[schemars(transform = between(0.0, 1e-3, "give 0.000001 so that material starts to flow when it yields; with 0 it stays at rest"))]
         pub seed: f64,
     }
 }

@@ -15,7 +15,7 @@ law_of_grains! {
     /// Dry grains as a liquid that creeps below the yield stress: the paper's own setting.
     pub struct RegularisedMuI {
         /// Regularisation rate α_r `[1/s]`; the paper's value is 0.01.
-        #[schemars(transform = above(0.0, "give a creep rate in 1/s; 0.01 in the paper"))]
+        #[schemars(transform = above(0.0, "give a creep rate in 1/s, such as 0.01 as in the paper"))]
         pub regularisation_rate: f64,
     }
 }

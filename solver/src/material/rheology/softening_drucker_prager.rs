@@ -43,27 +43,27 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct SofteningDruckerPrager {
     /// Friction coefficient μ_p `[-]` before any plastic strain: shear strength gained per pressure, the sine of Mohr and Coulomb's angle.
-    #[schemars(transform = between(0.0, 1.0, "give the sine of the peak angle of friction, no angle; 0.6 for dense sand, 0 for undrained clay"))]
+    #[schemars(transform = between(0.0, 1.0, "give the sine of the peak friction angle, such as 0.6 for dense sand, 0 for undrained clay"))]
     pub peak_friction: f64,
     /// Friction coefficient μ_r `[-]` after the softening, ≤ μ_p.
-    #[schemars(transform = between(0.0, 1.0, "give the sine of the residual angle of friction, at most peak_friction"))]
+    #[schemars(transform = between(0.0, 1.0, "give the sine of the residual friction angle, at most `peak_friction`"))]
     pub residual_friction: f64,
     /// Cohesion k_p `[Pa]` before any plastic strain: shear strength without pressure, c cos φ of Mohr and Coulomb's c.
     #[schemars(transform = not_negative("give the shear strength without pressure in Pa, or 0 for sand"))]
     pub peak_cohesion: f64,
     /// Cohesion k_r `[Pa]` after the softening, ≤ k_p.
-    #[schemars(transform = not_negative("give the remaining shear strength without pressure in Pa, at most peak_cohesion"))]
+    #[schemars(transform = not_negative("give the residual shear strength without pressure in Pa, at most `peak_cohesion`"))]
     pub residual_cohesion: f64,
     /// Plastic shear strain κ_r `[-]` over which strength falls to its residual.
-    #[schemars(transform = positive("give the plastic shear strain at which strength is residual; 0.1 is usual"))]
+    #[schemars(transform = positive("give the plastic shear strain at which the strength is residual, such as 0.1"))]
     pub softening_strain: f64,
     /// Dilation β_p `[-]` before any plastic strain: plastic volume strain gained per plastic shear strain, the sine of the dilation angle, ≤ μ_p.
     #[serde(default, skip_serializing_if = "is_zero")]
-    #[schemars(transform = between(0.0, 1.0, "give the sine of the dilation angle, no angle, at most peak_friction; 0.2 for dense sand, 0 for none"))]
+    #[schemars(transform = between(0.0, 1.0, "give the sine of the dilation angle, at most `peak_friction`; 0.2 for dense sand, 0 for none"))]
     pub peak_dilation: f64,
     /// Plastic shear strain κ_d `[-]` over which dilation falls to nothing; without it dilation never ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = positive("give the plastic shear strain at which the volume does not change any more; 0.2 is usual"))]
+    #[schemars(transform = positive("give the plastic shear strain from which the volume is constant, such as 0.2"))]
     pub dilation_strain: Option<f64>,
 }
 
@@ -125,7 +125,8 @@ impl SofteningDruckerPrager {
     pub(super) fn strength_problem(&self) -> Option<ParameterProblem> {
         let rises = |field: &str, peak_field: &str, residual: f64, peak: f64| {
             let remedy = "give the peak value itself for a material that does not soften";
-            (residual > peak).then(|| ParameterProblem::new(field, residual, &format!("at most {peak_field}"), remedy))
+            (residual > peak)
+                .then(|| ParameterProblem::new(field, residual, &format!("at most `{peak_field}`"), remedy))
         };
         rises("residual_friction", "peak_friction", self.residual_friction, self.peak_friction)
             .or_else(|| rises("residual_cohesion", "peak_cohesion", self.residual_cohesion, self.peak_cohesion))
@@ -141,16 +142,16 @@ impl SofteningDruckerPrager {
         };
         if peak > self.peak_friction {
             let remedy = "give the sine of the dilation angle, no greater than that of the angle of friction";
-            return problem(peak, "peak_dilation", "at most peak_friction".to_owned(), remedy);
+            return problem(peak, "peak_dilation", "at most `peak_friction`".to_owned(), remedy);
         }
         // both fall along lines, so that the ends of the softening are enough
         let at_residual = dilation.ratio(self.softening_strain);
         if at_residual > self.residual_friction {
             let rule = format!(
-                "so small that the dilation left at softening_strain, {at_residual:.3}, is at most residual_friction, {}",
+                "so small that the dilation at `softening_strain`, {at_residual:.3}, is at most `residual_friction`, {}",
                 self.residual_friction
             );
-            return problem(peak, "peak_dilation", rule, "give less, or a dilation_strain that ends it sooner");
+            return problem(peak, "peak_dilation", rule, "give a smaller value, or a smaller `dilation_strain`");
         }
         let (strain, most) = (self.dilation_strain?, LARGEST_LOOSENING);
         if dilation.largest_volume_strain() > most {
@@ -159,7 +160,7 @@ impl SofteningDruckerPrager {
                 strain,
                 "dilation_strain",
                 rule,
-                "give the strain at which soil has come to its critical density",
+                "give the strain at which the soil reaches its critical density",
             );
         }
         None

@@ -253,9 +253,9 @@ fn strength_that_rises_with_the_strain_is_refused() {
         (problem.field, problem.rule)
     };
     let friction = SofteningDruckerPrager { residual_friction: 0.7, ..SOIL };
-    assert_eq!(problem(friction), ("residual_friction".to_owned(), "at most peak_friction".to_owned()));
+    assert_eq!(problem(friction), ("residual_friction".to_owned(), "at most `peak_friction`".to_owned()));
     let cohesion = SofteningDruckerPrager { residual_cohesion: 11.0, ..SOIL };
-    assert_eq!(problem(cohesion), ("residual_cohesion".to_owned(), "at most peak_cohesion".to_owned()));
+    assert_eq!(problem(cohesion), ("residual_cohesion".to_owned(), "at most `peak_cohesion`".to_owned()));
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         let strain = SofteningDruckerPrager { softening_strain: bad, ..SOIL };
         assert_eq!(problem(strain).0, "softening_strain");

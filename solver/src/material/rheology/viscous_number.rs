@@ -30,22 +30,22 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct ViscousNumber {
     /// Friction coefficient μ_c `[-]` at rest and at the critical solid fraction.
-    #[schemars(transform = between(0.0, 2.0, "0.415 for glass beads"))]
+    #[schemars(transform = between(0.0, 2.0, "give 0.415 for glass beads"))]
     pub critical_friction: f64,
     /// Rise K1 of the friction coefficient with the viscous number `[-]`.
-    #[schemars(transform = between(1.0, 1e4, "90.5 for glass beads"))]
+    #[schemars(transform = between(1.0, 1e4, "give 90.5 for glass beads"))]
     pub friction_slope: f64,
     /// Critical solid fraction φ_c of slow flow `[-]`.
-    #[schemars(transform = inside(0.3, 0.75, "0.582 for glass beads"))]
+    #[schemars(transform = inside(0.3, 0.75, "give 0.582 for glass beads"))]
     pub critical_fraction: f64,
     /// Fall K2 of the equilibrium solid fraction with the viscous number `[-]`.
-    #[schemars(transform = between(0.0, 1e3, "25 for glass beads"))]
+    #[schemars(transform = between(0.0, 1e3, "give 25 for glass beads"))]
     pub fraction_slope: f64,
     /// Dilatancy K3 `[-]`: tanψ per difference of the solid fraction from equilibrium.
-    #[schemars(transform = between(0.0, 100.0, "4.09 for glass beads; 0 for none"))]
+    #[schemars(transform = between(0.0, 100.0, "give 4.09 for glass beads, or 0 for no dilatancy"))]
     pub dilatancy: f64,
     /// Solid fraction φ `[-]` at the start.
-    #[schemars(transform = inside(0.3, 0.75, "0.55 is loose, 0.6 dense"))]
+    #[schemars(transform = inside(0.3, 0.75, "give 0.55 for a loose packing, 0.6 for a dense one"))]
     pub solid_fraction: f64,
     /// Grain diameter `[m]`.
     #[schemars(transform = above(0.0, "give the diameter in metres; 0.000225 for 225 µm"))]
@@ -54,14 +54,14 @@ pub struct ViscousNumber {
     #[schemars(transform = above(0.0, "give the density of a grain in kg/m³; 2500 for glass"))]
     pub grain_density: f64,
     /// Density `[kg/m³]` of the liquid.
-    #[schemars(transform = above(0.0, "give it in kg/m³; 1000 for water"))]
+    #[schemars(transform = above(0.0, "give it in kg/m³, such as 1000 for water"))]
     pub liquid_density: f64,
     /// Viscosity η `[Pa·s]` of the liquid.
-    #[schemars(transform = above(0.0, "give it in Pa·s; 0.001 for water"))]
+    #[schemars(transform = above(0.0, "give it in Pa·s, such as 0.001 for water"))]
     pub liquid_viscosity: f64,
     /// Coefficient α `[-]` of the permeability α d² (1 − φ)³/φ².
     #[serde(default = "kozeny_carman")]
-    #[schemars(transform = between(1e-6, 1.0, "1/180 by Kozeny and Carman"))]
+    #[schemars(transform = between(1e-6, 1.0, "give 0.0056, which is 1/180, for the Kozeny–Carman relation"))]
     pub permeability_coefficient: f64,
 }
 
@@ -104,8 +104,8 @@ struct SkeletonStep<R> {
 impl ViscousNumber {
     pub(super) fn density_problem(&self) -> Option<ParameterProblem> {
         (self.liquid_density >= self.grain_density).then(|| {
-            let remedy = "the model is made for grains that sink; give the density of the liquid in kg/m³";
-            ParameterProblem::new("liquid_density", self.liquid_density, "below grain_density", remedy)
+            let remedy = "give the density of the liquid in kg/m³; the model needs grains that sink";
+            ParameterProblem::new("liquid_density", self.liquid_density, "below `grain_density`", remedy)
         })
     }
 

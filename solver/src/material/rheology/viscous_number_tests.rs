@@ -102,5 +102,5 @@ fn a_step_of_no_length_changes_nothing_and_a_heavy_liquid_is_refused() {
     assert_eq!(BEADS.memory_after(&trial, &field, &end), field.memory);
     let heavy = Rheology::ViscousNumber(ViscousNumber { liquid_density: 2600.0, ..BEADS });
     let message = heavy.parameter_problem().expect("refused").to_string();
-    assert!(message.contains("`liquid_density` is 2600, but must be below grain_density"), "{message}");
+    assert!(message.contains("`liquid_density` is 2600, but must be below `grain_density`"), "{message}");
 }

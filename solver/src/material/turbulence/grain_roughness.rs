@@ -19,11 +19,11 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct GrainRoughness {
     /// Depth r_0 of the origin below the tops of resting grains, in grain diameters `[-]`; 0 for a smooth bed.
-    #[schemars(transform = between(0.0, 1.0, "0.15 to 0.3 for beds of spheres, 0 for a smooth bed"))]
+    #[schemars(transform = between(0.0, 1.0, "give 0.15 to 0.3 for a bed of spheres, 0 for a smooth bed"))]
     pub origin_depth: f64,
     /// Room s between loosened grains over which the bed's roughness falls by e, in grain diameters `[-]`; chosen, not measured:
     /// 0.01 to 0.3 are plausible, and transport depends on it.
-    #[schemars(transform = positive("a few hundredths: a layer of grains that moves has more"))]
+    #[schemars(transform = positive("give a few hundredths; a layer of moving grains has a larger value"))]
     pub bed_roughness_fade_length: f64,
 }
 

@@ -28,7 +28,7 @@ pub struct MixingLength {
     /// Shape over the depth.
     pub shape: MixingLengthShape,
     /// Depth z_off `[m]` of the wall law's origin below the nominal bed: a fraction of a grain diameter.
-    #[schemars(transform = not_negative("a fraction of a grain diameter"))]
+    #[schemars(transform = not_negative("give it in metres: a fraction of a grain diameter"))]
     pub origin_offset: f64,
 }
 

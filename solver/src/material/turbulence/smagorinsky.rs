@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Smagorinsky {
     /// Coefficient C_s `[-]`; 0 switches the closure off.
-    #[schemars(transform = between(0.0, 1.0, "0.07 to 0.25 are usual; 0 is laminar flow"))]
+    #[schemars(transform = between(0.0, 1.0, "give 0.07 to 0.25, or 0 for laminar flow"))]
     pub coefficient: f64,
 }
 

@@ -66,7 +66,7 @@ impl<const D: usize> BoundarySet<D> {
         }
         let operator = numerics.pairwise_operator()?;
         let rule = "\"single-divergence\" or \"uncorrected-divergence\" with walls of segments or open sides";
-        let remedy = "the impulse on a wall of segments and what leaves are booked by these only";
+        let remedy = "choose one of these: only they account for the force on such walls and for outflow";
         Some(ParameterProblem::new("momentum_operator", operator, rule, remedy))
     }
 }

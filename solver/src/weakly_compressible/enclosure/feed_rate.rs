@@ -40,22 +40,23 @@ impl FeedRate {
             Err(ParameterProblem::new(&format!("[{row}]"), value, rule, remedy))
         };
         if rows.first().is_none_or(|(time, _)| *time < 0.0) {
-            return refused(0, "a time and a rate, not before the time 0", "begin with the rate at the time 0");
+            return refused(0, "a rate at 0 s or later", "begin with the rate at 0 s");
         }
         for (row, (time, rate)) in rows.iter().enumerate() {
             if !(*rate >= 0.0 && rate.is_finite()) {
                 return refused(
                     row,
-                    "a time with a rate that is not negative",
-                    "what flows out leaves by an open side",
+                    "a time with a rate of 0 or more",
+                    "give a positive rate; for outflow, open a side of the domain",
                 );
             }
             if !time.is_finite() || row > 0 && *time < rows[row - 1].0 {
-                let rule = format!("not before the row above it, {} s", rows[row.max(1) - 1].0);
+                let rule = format!("at {} s or later, the time of the row above", rows[row.max(1) - 1].0);
                 return refused(row, &rule, "sort the rows by their times");
             }
             if row > 1 && *time == rows[row - 2].0 {
-                return refused(row, "at most the second row of its time", "a jump has a row before and one after it");
+                let remedy = "keep two rows at this time, with the rates before and after the jump";
+                return Err(ParameterProblem::new(&format!("[{row}]"), format!("third row at {time} s"), "", remedy));
             }
         }
         let (times, rates): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
@@ -165,12 +166,13 @@ mod tests {
     #[test]
     fn tables_rise_and_are_not_negative() {
         let refused = |rows: &[(f64, f64)]| FeedRate::table(rows).expect_err("refused").to_string();
-        assert!(refused(&[]).starts_with("`[0]` is absent, but must be a time and a rate, not before the time 0"));
+        assert!(refused(&[]).starts_with("`[0]` is absent, but must be a rate at 0 s or later"));
         assert!(refused(&[(-0.5, 1.0)]).starts_with("`[0]` is (-0.5, 1)"));
-        assert!(refused(&[(0.0, 1.0), (1.0, 2.0), (0.5, 2.0)]).contains("must be not before the row above it, 1 s"));
         assert!(
-            refused(&[(0.0, 1.0); 3]).starts_with("`[2]` is (0, 1), but must be at most the second row of its time")
+            refused(&[(0.0, 1.0), (1.0, 2.0), (0.5, 2.0)])
+                .contains("must be at 1 s or later, the time of the row above")
         );
+        assert!(refused(&[(0.0, 1.0); 3]).starts_with("`[2]`: third row at 0 s; keep two rows at this time"));
         assert!(refused(&[(0.0, 1.0), (1.0, -2.0)]).starts_with("`[1]` is (1, -2)"));
         assert!(FeedRate::constant(f64::NAN).is_err() && FeedRate::constant(-1.0).is_err());
     }

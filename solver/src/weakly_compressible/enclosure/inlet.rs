@@ -168,8 +168,8 @@ impl<const D: usize> Inlet<D> {
     pub fn problem(&self, spacing: f64, sound_speed: f64) -> Option<ParameterProblem> {
         let is_sound = |value: f64| value > 0.0 && value.is_finite();
         if !(self.cells.iter().all(|cell| cell.sum().is_finite()) && is_sound(self.area) && is_sound(self.depth)) {
-            let rule = "finite, with an area";
-            return Some(ParameterProblem::new("area", self.area, rule, "give its corners in metres"));
+            let rule = "finite and greater than 0";
+            return Some(ParameterProblem::new("area", self.area, rule, "give the corners of the opening in metres"));
         }
         if self.cells.len() < (NARROWEST as usize).pow(D as u32 - 1) {
             let value = format!("{} particles wide", self.cells.len());

@@ -12,10 +12,10 @@ const MOST_FRICTION: f64 = 2.0;
 #[serde(deny_unknown_fields)]
 pub struct SideWalls {
     /// Distance W of the two walls `[m]`.
-    #[schemars(transform = positive("give the inner width of the channel in metres, or leave `side_walls` out for none"))]
+    #[schemars(transform = positive("give the inner width of the channel in metres, or leave `side_walls` out"))]
     pub width: f64,
     /// Friction coefficient μ_w of grains on them `[-]`.
-    #[schemars(transform = between(0.0, MOST_FRICTION, "it is the tangent of the angle of friction: 0.3 for one of 17°"))]
+    #[schemars(transform = between(0.0, MOST_FRICTION, "give the tangent of the friction angle: 0.3 for 17°"))]
     pub friction: f64,
 }
 
@@ -30,9 +30,8 @@ impl SideWalls {
     #[must_use]
     pub fn problem(&self, axes: usize) -> Option<ParameterProblem> {
         if axes != 2 {
-            let given = format!("given, {} m apart", self.width);
-            let remedy = "walls in space are walls of the scene; leave `side_walls` out";
-            return Some(ParameterProblem::new("side_walls", given, "absent in three dimensions", remedy));
+            let remedy = "leave it out, and give the side walls under `walls`";
+            return Some(ParameterProblem::new("side_walls", "for two-dimensional scenes only", "", remedy));
         }
         range_problem(self).map(|problem| problem.within("side_walls"))
     }

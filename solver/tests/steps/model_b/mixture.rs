@@ -229,7 +229,8 @@ fn a_uniform_suspension_has_no_mean_flux_and_the_floor_carries_it() {
 fn a_mixture_needs_a_solid_fraction_and_grains_without_a_pressure() {
     let scene = || suspension(at_rest, at_rest, (MeanFlux::Zero, 9.81)).scene().clone();
     let overlapping = IncompressibleScene { solid_fraction: SolidFraction::Overlapping, ..scene() };
-    let message = "`continuity` is mixture, but must be \"fluid\" where grains displace no fluid; change one of both";
+    let message =
+        "`continuity` is mixture, but must be \"fluid\" where grains displace no fluid; change one of the two";
     assert_eq!(overlapping.check().unwrap_err().to_string(), message);
     let mut held = scene();
     held.sediment.as_mut().unwrap().pressure = SedimentPressure::AlongBed;

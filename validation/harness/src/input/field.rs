@@ -3,7 +3,7 @@
 use super::escape::{escaped, shown};
 use super::place::position;
 use crate::sampling::BoundsError;
-use bagnold_solver::parameter::shortened;
+use bagnold_solver::parameter::{defect, shortened};
 use std::path::{Path, PathBuf};
 
 /// Origin of a value: a file, or an argument of the command line.
@@ -28,7 +28,7 @@ pub struct FieldError {
     pub value: String,
     /// The rule it breaks, completing "must be …".
     pub rule: Box<str>,
-    /// Remedy.
+    /// Instruction to the user, such as "give it in metres".
     pub remedy: Box<str>,
 }
 
@@ -71,6 +71,8 @@ impl FieldError {
     /// A text that is not TOML, or has other fields than its type; `message` and `remedy` are those of its reader.
     pub fn of_toml(text: &str, error: &toml::de::Error, message: impl std::fmt::Display, remedy: &str) -> Self {
         let (line, column) = position(text, error.span().map_or(0, |span| span.start));
+        let deep = "cannot recurse further; max recursion depth met";
+        let message = message.to_string().replace(deep, "brackets are nested too deeply");
         Self::finding(&format!("line {line}, column {column}"), message, remedy)
     }
 }
@@ -82,9 +84,4 @@ pub(crate) fn before(origin: &Option<Origin>) -> String {
         Some(Origin::Setting(argument)) => format!("`--set {}`: ", escaped(argument)),
         None => String::new(),
     }
-}
-
-/// Value and rule of a message, or the value alone.
-fn defect(value: &str, rule: &str) -> String {
-    if rule.is_empty() { format!(": {value}") } else { format!(" is {value}, but must be {rule}") }
 }

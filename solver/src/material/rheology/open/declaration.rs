@@ -20,16 +20,16 @@ pub(super) fn check(name: &'static str, law: &dyn OpenFieldLaw) -> Result<(), Op
             );
         }
         if place > 0 && kept.diffusion.is_some() {
-            let rule = "without diffusion, because a law's field alone spreads";
-            return wrong(kept, "one that spreads".to_owned(), rule.to_owned(), "make it the law's field");
+            let rule = "without diffusion, because only a law's field diffuses";
+            return wrong(kept, "a diffusing quantity".to_owned(), rule.to_owned(), "make it the law's field");
         }
         if place > MOST_MEMORIES {
             let rule = format!("among the first {MOST_MEMORIES} beside the law's field");
-            return wrong(kept, format!("number {place}"), rule, "leave out what follows from the others");
+            return wrong(kept, format!("number {place}"), rule, "leave out quantities that follow from the others");
         }
         if memories[place.min(memories.len())..].iter().any(|other| other.name == kept.name) {
-            let remedy = "give each a name of its own, by which files and pages tell them";
-            return wrong(kept, "kept twice".to_owned(), "kept once".to_owned(), remedy);
+            let remedy = "give each another name";
+            return wrong(kept, "declared twice".to_owned(), "declared once".to_owned(), remedy);
         }
     }
     Ok(())

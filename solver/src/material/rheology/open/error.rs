@@ -2,7 +2,7 @@
 
 /// A name that cannot be given to a law.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("the law `{name}` is there already; give yours another name")]
+#[error("a law named `{name}` exists already; give yours another name")]
 pub struct RegistrationError {
     /// The name.
     pub name: &'static str,
