@@ -12,7 +12,7 @@ use std::sync::{Arc, OnceLock};
 pub struct Signal(i32);
 
 impl Signal {
-    /// Its name.
+    /// Name of the signal, such as SIGTERM.
     #[must_use]
     pub fn name(self) -> &'static str {
         signal_name(self.0).unwrap_or("a signal")

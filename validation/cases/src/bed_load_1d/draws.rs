@@ -35,9 +35,9 @@ const FADE: (f64, f64) = (1.0 / 3.0, 10.0);
 /// A layer of other closures, moving and at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DrawnLayer {
-    /// Its closures.
+    /// Closures of the draw.
     pub closures: Closures,
-    /// The layer.
+    /// Steady layer with these closures.
     pub state: LayerState,
     /// The same bed at rest.
     pub rest: LayerState,

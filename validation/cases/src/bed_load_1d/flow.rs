@@ -28,8 +28,8 @@ const TRANSITION: f64 = 1.2;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SlopedStream {
     /// Slope tanθ `[-]`.
-    #[schemars(transform = positive("give tanθ, such as 0.03; without a slope nothing flows"))]
-    #[schemars(transform = between(0.0, 0.2, "on steeper slopes the bed itself would slide"))]
+    #[schemars(transform = positive("give tanθ, such as 0.03"))]
+    #[schemars(transform = between(0.0, 0.2, "reduce it: on steeper slopes the bed itself slides"))]
     pub slope: f64,
     /// Depth h of the water above the bed `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.046"))]
@@ -48,13 +48,13 @@ pub struct SlopedStream {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GrainUnits {
     /// Depth of the water in grain diameters.
-    #[schemars(transform = between(2.0, 1000.0, "20 to be many grains deep"))]
+    #[schemars(transform = between(2.0, 1000.0, "give 20 for a depth of many grains"))]
     pub relative_depth: f64,
     /// Depth of the bed in grain diameters.
-    #[schemars(transform = between(1.0, 1000.0, "6, or more where the grains move deeper"))]
+    #[schemars(transform = between(1.0, 1000.0, "give 6, or more where grains move deeper"))]
     pub relative_bed_depth: f64,
     /// Cells over a grain diameter; both depths are whole multiples of one.
-    #[schemars(transform = between(2.0, 1000.0, "12 is quick, 20 is accurate"))]
+    #[schemars(transform = between(2.0, 1000.0, "give 12 for a quick run, 20 for an accurate one"))]
     pub cells_per_diameter: f64,
 }
 
@@ -62,9 +62,9 @@ pub struct GrainUnits {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SimilarStream {
     /// Shields number τ* `[-]`.
-    #[schemars(transform = positive("0.03 to 0.7 for bed load"), transform = up_to(10.0, "0.03 to 0.7 for bed load"))]
+    #[schemars(transform = positive("give 0.03 to 0.7 for bed load"), transform = up_to(10.0, "give 0.03 to 0.7 for bed load"))]
     pub shields_number: f64,
-    /// Its lengths.
+    /// Lengths of the stream in grain diameters.
     #[serde(flatten)]
     pub lengths: GrainUnits,
 }
@@ -112,7 +112,7 @@ pub enum LayerStart {
 /// A layer of water and grains. On a slope, those from rest are judged; those from both starts are compared with them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BedLoad1dFlow {
-    /// The stream.
+    /// Stream, given by its slope, by a Shields number, or at the onset of motion.
     pub stream: LayerStream,
     /// Gravity `[m/s²]`.
     #[schemars(transform = rules::gravity())]
@@ -130,19 +130,19 @@ pub struct BedLoad1dFlow {
     #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
     pub grain_diameter: f64,
     /// Diameter of the sphere with the drag of a grain, over d `[-]`.
-    #[schemars(transform = between(0.01, 2.0, "it counts grain diameters: 1 for spheres, 0.5 for crushed plastic"))]
+    #[schemars(transform = between(0.01, 2.0, "give it in grain diameters: 1 for spheres, 0.5 for crushed plastic"))]
     pub drag_diameter: f64,
     /// Motion of the grains.
     pub motion: BedMotion,
-    /// Start.
+    /// Initial velocity of the layer.
     pub start: LayerStart,
-    /// Closures.
+    /// Closures of drag, friction, dilation and turbulence.
     pub closures: Closures,
     /// Number of draws of the closures from the ranges of the literature, each a layer and the same bed at rest; 0 for none.
-    #[schemars(transform = between(0.0, 4096.0, "64 give a deviation to a tenth of it; 0 for none"))]
+    #[schemars(transform = between(0.0, 4096.0, "give 64 for a standard deviation within 10 %, or 0 for none"))]
     pub closure_draws: usize,
     /// Change of a step, of velocities over u_* and of fractions, below which a layer counts as steady `[-]`.
-    #[schemars(transform = positive("1e-11 is hardly more than rounding; 1e-3 stops on the way"))]
+    #[schemars(transform = positive("give 1e-11, slightly above rounding; with 1e-3 the run stops too early"))]
     pub steady_change: f64,
 }
 
@@ -175,7 +175,8 @@ impl BedLoad1dFlow {
     /// The rules between fields.
     pub(super) fn checked(&self) -> Result<(), ParameterError> {
         if self.grain_density <= self.fluid_density {
-            let (rule, remedy) = ("greater than the density of the water", "grains that float are no bed load");
+            let (rule, remedy) =
+                ("greater than the water density", "give it in kg/m³; floating grains form no bed load");
             return Err(ParameterError::field("grain_density", self.grain_density, rule, remedy));
         }
         rules::refuse("closures", self.closures.problem())?;
@@ -196,15 +197,15 @@ impl BedLoad1dFlow {
 impl SlopedStream {
     fn check(&self) -> Result<(), ParameterError> {
         let Self { depth, bed_depth, held_depth, cell_height, .. } = *self;
-        let remedy = "hold less than the whole bed, or 0 for none";
+        let remedy = "fix less than the whole bed, or give 0 for none";
         rules::between("stream.held_depth", held_depth, 0.0, 0.9 * bed_depth, remedy)?;
         let fits = |depth: f64| (depth / cell_height - (depth / cell_height).round()).abs() < 1e-6;
         let is_fine = depth / cell_height >= 10.0 && (depth + bed_depth) / cell_height <= 1e5;
         if is_fine && [depth, bed_depth, held_depth].into_iter().all(fits) {
             return Ok(());
         }
-        let rule = "such that the depths of water, bed and held grains are whole multiples of it, at most 1e5 in all";
-        let remedy = "2.5e-4 divides all depths that are given in quarters of a millimetre";
+        let rule = "a length that divides the depths of water, bed and held grains into at most 1e5 whole cells";
+        let remedy = "give 2.5e-4 for depths in multiples of a quarter of a millimetre";
         Err(ParameterError::field("stream.cell_height", cell_height, rule, remedy))
     }
 }
@@ -215,7 +216,7 @@ impl GrainUnits {
         for (name, depth) in depths {
             let cells = depth * self.cells_per_diameter;
             if (cells - cells.round()).abs() > 1e-6 {
-                let (rule, remedy) = ("a whole multiple of a cell", "choose whole numbers");
+                let (rule, remedy) = ("a whole multiple of a cell", "give whole numbers of cells and diameters");
                 return Err(ParameterError::field(&format!("stream.{name}"), depth, rule, remedy));
             }
         }
@@ -288,8 +289,8 @@ impl BedLoad1dFlow {
     fn check_sliding(&self, field: &str, value: f64) -> Result<(), ParameterError> {
         match self.layer().and_then(|layer| layer.check()) {
             Err(LayerError::BedSlides { slope, limit, remedy }) => {
-                let rule = format!("for a slope below {limit:.5}, where the bed slides (here {slope:.5})");
-                Err(ParameterError::field(field, value, &rule, &remedy))
+                let defect = format!("{value} gives the slope {slope:.4}, but the bed slides above {limit:.4}");
+                Err(ParameterError::field(field, defect, "", &remedy))
             }
             _ => Ok(()),
         }

@@ -84,12 +84,12 @@ impl BedLoadFlume {
             return refused("depth", self.depth, "2 to 1000 grain diameters", "give both in metres: 0.002 for 2 mm");
         }
         if let Some(width) = self.width.filter(|width| *width < self.depth) {
-            let remedy = "in a narrower flume the walls bear most of the stress";
+            let remedy = "widen the flume or reduce the depth: otherwise the walls carry most of the stress";
             return refused("width", width, "at least the depth of the water", remedy);
         }
         if self.layer(1.0, Closures::default()).checked().is_err() {
-            let remedy = "steeper beds move as debris flows: run a scene";
-            return refused("slope", self.slope, "so gentle that a bed of 8 grains does not slide", remedy);
+            let remedy = "run a scene instead: steeper beds move as debris flows";
+            return refused("slope", self.slope, "a slope on which a bed of 8 grains does not slide", remedy);
         }
         Ok(())
     }
@@ -113,8 +113,8 @@ impl BedLoadFlume {
         }
         let own = self.layer(bed_share, usual);
         let Some(state) = state else {
-            let remedy = "give a lesser depth, or another slope";
-            return Err(ParameterError::field("slope", self.slope, "that of a layer that becomes steady", remedy));
+            let remedy = "reduce the depth, or give another slope";
+            return Err(ParameterError::field("slope", self.slope, "a slope on which the flow becomes steady", remedy));
         };
         let mut drawn = Vec::new();
         for closures in drawn_closures(&usual, draws) {

@@ -27,7 +27,7 @@ const LOWEST_SCANNED: f64 = 0.1;
 /// What a run leaves behind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BedLoadLayerObservation {
-    /// The profiles.
+    /// Profiles of the layer over the depth.
     pub state: LayerState,
     /// Difference between the states from rest and from a fast start, where the run has both `[-]`; else 0.
     pub start_difference: f64,
@@ -234,12 +234,7 @@ fn refused(error: LayerError) -> ParameterError {
         LayerError::Parameter { field, value, rule } => {
             ParameterError::field(field, value, rule, "`bagnold show bed-load-1d` prints a valid value")
         }
-        other => ParameterError::field(
-            "closures",
-            "given",
-            &format!("such that a layer can be computed ({other})"),
-            "change them",
-        ),
+        other => ParameterError::field("closures", other, "", "change them"),
     }
 }
 

@@ -83,7 +83,7 @@ pub struct Channel<'a> {
     pub density: f64,
     /// Kinematic viscosity of the fluid ν `[m²/s]`.
     pub kinematic_viscosity: f64,
-    /// Turbulence.
+    /// Turbulence model of the water.
     pub turbulence: Turbulence,
     /// What the floor does to the velocity along it.
     pub bed: Bed,
@@ -99,7 +99,7 @@ pub struct Channel<'a> {
     pub sediment: Option<Sediment<2>>,
     /// How water and sediment share the space.
     pub solid_fraction: SolidFraction,
-    /// Numerics.
+    /// Numerical scheme of the incompressible model.
     pub numerics: ProjectionNumerics,
     /// How long it runs.
     pub until: AveragingWindowEnd,

@@ -28,7 +28,7 @@ pub struct Water {
     pub columns: usize,
     /// Seed of the displacements.
     pub seed: u64,
-    /// Numerics.
+    /// Numerical scheme of the incompressible model.
     pub numerics: ProjectionNumerics,
 }
 

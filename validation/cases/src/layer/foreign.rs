@@ -88,7 +88,7 @@ pub(crate) fn observe(
             picture.within(f64::MAX, [f64::NEG_INFINITY, -reach, f64::NEG_INFINITY], ORIGIN)?;
             if picture.column("y").iter().any(|y| *y > reach) {
                 let rule = format!("at most {reach} m");
-                return Err(FieldError::new("particles.columns.y", "larger", &rule, ORIGIN));
+                return Err(FieldError::new("particles.columns.y", "higher in places", &rule, ORIGIN));
             }
             probe.observe(&snapshot(picture)?);
         }
@@ -127,8 +127,8 @@ fn check_heights(height: &[f64], depth: f64) -> Result<(), FieldError> {
     }
     let near = height.iter().filter(|height| **height < NEAR_BED * depth).count();
     if near < 2 {
-        let rule = format!("two points at least below {} m, a fifth of the depth", NEAR_BED * depth);
-        return Err(FieldError::new(field, format!("{near} points there"), &rule, "give points nearer to the bed"));
+        let defect = format!("{near} of 2 points needed below {} m, a fifth of the depth", NEAR_BED * depth);
+        return Err(FieldError::finding(field, defect, "give points nearer to the bed"));
     }
     Ok(())
 }
@@ -176,7 +176,7 @@ pub(crate) fn unmeasured() -> LayerObservation {
 }
 
 fn snapshot(picture: &ParticleFrame) -> Result<Snapshot<2>, FieldError> {
-    let remedy = "a layer's particles have x, y, vx and vy";
+    let remedy = "give x, y, vx and vy of a layer's particles";
     let [x, y, vx, vy] = ["x", "y", "vx", "vy"].map(|name| picture.needed(name, remedy));
     let (x, y, vx, vy) = (x?, y?, vx?, vy?);
     let or = |name: &str, value: f64| {

@@ -221,8 +221,8 @@ impl Layer<'_> {
         if steps > WORTH_A_WARNING * acoustic {
             tracing::warn!(
                 "slope angle {:.1}°, {} rows: the explicit viscous step needs about {steps:.1e} steps for {} s, {:.0} times \
-                 as many as the speed of sound would; that is {:.1} h on one core. A larger regularisation rate shortens \
-                 it, but lets the material creep: it is still compared with the unregularised law",
+                 as many as the sound speed alone would need; that is {:.1} h on one core. A larger regularisation rate shortens \
+                 the run, but lets the material creep",
                 self.inclination.to_degrees(),
                 self.layer.resolution,
                 self.duration,

@@ -25,13 +25,13 @@ pub struct PeriodicLayer {
     /// Columns of particles along the period.
     pub columns: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.1 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// What happens before the start.
     pub preparation: Preparation,
-    /// Numerics.
+    /// Numerical scheme of the weakly compressible model.
     pub numerics: Numerics,
 }
 

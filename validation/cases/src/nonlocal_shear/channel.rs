@@ -40,7 +40,7 @@ pub struct ChannelGrains {
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
-    /// Numerics.
+    /// Numerical scheme of the weakly compressible model.
     pub numerics: Numerics,
 }
 
@@ -55,7 +55,7 @@ pub enum UpperBoundary {
 
 /// Grains that fill the space between a wall at y = 0 and some width, periodic along the wall.
 pub struct Channel<'a> {
-    /// The particles.
+    /// Particles of the channel.
     pub grains: ChannelGrains,
     /// Their law.
     pub rheology: Rheology,

@@ -8,7 +8,7 @@ pub(super) const CELLS: usize = 2000;
 /// A steady flow without particles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactShear {
-    /// Its stresses.
+    /// Stresses of the exact flow.
     pub shear: NonlocalShear,
     /// Its profile over the distance from where it flows fastest.
     pub profile: NonlocalShearProfile,

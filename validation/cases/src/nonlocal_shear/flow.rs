@@ -41,51 +41,51 @@ pub enum Drive {
 /// Grains in a steady shear flow, whose stresses the balance of momentum gives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NonlocalShearFlow {
-    /// Drive.
+    /// Cause of the flow: a plate, a chute or a heap.
     pub drive: Drive,
     /// Half the distance of the walls of a chute, depth of a bed or a heap, over the grain diameter `[-]`.
-    #[schemars(transform = between(2.0, 1000.0, "20 diameters have a plug between the sheared layers of a chute, and hold the tail of a bed"))]
+    #[schemars(transform = between(2.0, 1000.0, "give 20 diameters, for a plug between the sheared layers of a chute, and for the tail of a bed"))]
     pub thickness: f64,
     /// Friction that the walls of a chute bear, ρ g W/p `[-]`.
-    #[schemars(transform = positive("give it between the grains' friction coefficients"))]
+    #[schemars(transform = positive("give it between the grains' static and limiting friction"))]
     pub wall_friction: f64,
     /// Velocity of the plate over √(g D) `[-]`.
-    #[schemars(transform = positive("2 shears some diameters below the plate"))]
+    #[schemars(transform = positive("give 2 to shear some diameters below the plate"))]
     pub plate_velocity: f64,
     /// Inclination of the surface of a heap `[°]`.
     #[schemars(transform = inside(0.0, 90.0, "give it between the angles of the grains' friction coefficients"))]
     pub slope_angle: f64,
     /// Distance of the side walls of a heap over the grain diameter `[-]`.
-    #[schemars(transform = between(1.0, 1e4, "30 diameters are a narrow channel"))]
+    #[schemars(transform = between(1.0, 1e4, "give 30 diameters for a narrow channel"))]
     pub side_wall_distance: f64,
     /// Friction of the grains on these side walls `[-]`.
-    #[schemars(transform = between(0.001, 2.0, "0.3 is that of glass beads on glass plates"))]
+    #[schemars(transform = between(0.001, 2.0, "give 0.3 for glass beads on glass plates"))]
     pub side_wall_friction: f64,
     /// Particles per grain diameter.
-    #[schemars(transform = between(1.0, 100.0, "2 resolve the length over which the flow decays, which is 1.2 diameters at least"))]
+    #[schemars(transform = between(1.0, 100.0, "give 2 to resolve the decay length, which is 1.2 diameters or more"))]
     pub particles_per_diameter: usize,
     /// Pressure in the chute and below the plate over ρ_s g D `[-]`.
-    #[schemars(transform = positive("10 is the weight of ten grains"))]
+    #[schemars(transform = positive("give 10 for the weight of ten grains"))]
     pub load: f64,
     /// Gravity `[m/s²]`; along a chute it follows from the friction of its walls.
     #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Solid fraction φ `[-]`.
-    #[schemars(transform = between(0.01, 1.0, "grains fill 0.5 to 0.64 of the space"))]
+    #[schemars(transform = between(0.01, 1.0, "give 0.5 to 0.64, the share of the space that grains fill"))]
     pub solid_fraction: f64,
     /// The grains; those of a heap may have the local law.
     pub material: Rheology,
     /// Columns of particles along the period.
     pub columns: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.1 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Simulated time `[s]`.
-    #[schemars(transform = between(0.01, 1000.0, "0.5 s below a plate, 1 s in a chute and 2 s on a heap let the start decay"))]
+    #[schemars(transform = between(0.01, 1000.0, "give 0.5 s below a plate, 1 s in a chute or 2 s on a heap, in which the initial error decays"))]
     pub duration: f64,
-    /// Numerics.
+    /// Numerical scheme of the weakly compressible model.
     pub numerics: Numerics,
 }
 
@@ -121,34 +121,35 @@ impl Flow for NonlocalShearFlow {
         let refused = |field, value: String, rule: &str, remedy| Err(ParameterError::field(field, value, rule, remedy));
         if !(matches!(self.material, Rheology::NonlocalMuI(_)) || self.is_local() && self.drive == Drive::Heap) {
             let rule = if self.drive == Drive::Heap { "\"nonlocal-mu-i\" or \"mu-i\"" } else { "\"nonlocal-mu-i\"" };
-            let remedy = "a local law has no tail, and its chutes flow at every width; heaps may have \"mu-i\"";
+            let remedy = "choose it: a local law has no creeping tail, and its chutes flow at every width";
             return refused("material.law", format!("\"{}\"", self.material.name()), rule, remedy);
         }
         rules::material("material", &self.material)?;
         rules::columns("columns", self.columns, &self.numerics)?;
         let NonlocalMuI { static_friction, limiting_friction, .. } = self.law();
         if self.drive == Drive::Chute {
-            let remedy = "beyond the grains' limiting friction nothing is steady";
+            let remedy = "reduce it: above the grains' limiting friction no flow is steady";
             rules::between("wall_friction", self.wall_friction, 0.0, MOST_FRICTION * limiting_friction, remedy)?;
         }
         match self.drive {
             _ if self.steady(&self.nominal()).is_some() => Ok(()),
             Drive::Chute => {
-                let rule = format!("that of a chute that flows at a half width of {} diameters", self.thickness);
-                let remedy = "the narrower a chute, the more friction it needs; give more, or a larger `thickness`";
-                refused("wall_friction", self.wall_friction.to_string(), &rule, remedy)
+                let defect = format!(
+                    "with {} no chute flows at a half width of {} diameters",
+                    self.wall_friction, self.thickness
+                );
+                refused("wall_friction", defect, "", "raise it, or raise `thickness`")
             }
             Drive::DraggedBed => {
-                let rule = "a velocity that a steady flow below the plate has";
-                let remedy = "a larger `load` or `thickness` bears a faster plate";
-                refused("plate_velocity", self.plate_velocity.to_string(), rule, remedy)
+                let defect = format!("with {} no flow below the plate is steady", self.plate_velocity);
+                refused("plate_velocity", defect, "", "reduce it, or raise `load` or `thickness`")
             }
             Drive::Heap => {
                 let [least, most] = [static_friction, limiting_friction].map(|mu| libm::atan(mu).to_degrees());
                 let rule = format!(
-                    "between the angles of the grains' friction, {least} and {most} degrees, ends excluded, and so that the layer flows"
+                    "an angle of steady flow, between {least:.3}° and {most:.3}°, the grains' static and limiting friction angles"
                 );
-                let remedy = "a gentler heap is at rest, a steeper one has no steady flow";
+                let remedy = "raise it if the heap is at rest, reduce it if the flow accelerates";
                 refused("slope_angle", self.slope_angle.to_string(), &rule, remedy)
             }
         }
@@ -333,8 +334,7 @@ mod tests {
         assert!(fast.starts_with("`plate_velocity` is 1000000, but must be a velocity that"), "{fast}");
         for angle in [15.0, 40.0] {
             let heap = message(|flow| (flow.drive, flow.slope_angle) = (Drive::Heap, angle));
-            let expected =
-                format!("`slope_angle` is {angle}, but must be between the angles of the grains' friction, 20.9");
+            let expected = format!("`slope_angle` is {angle}, but must be an angle of steady flow, between 20.9");
             assert!(heap.starts_with(&expected), "{heap}");
         }
         let local = message(|flow| flow.material = Rheology::MuI(GLASS_BEADS.law));

@@ -33,23 +33,23 @@ pub struct SettlingFlow {
     /// Drag law. Ergun's has no grain alone, and begins at a solid fraction of 0.2.
     pub law: DragLaw,
     /// Solid fraction φ of a suspension `[-]`; up to 0.005 it stands for a grain alone.
-    #[schemars(transform = between(1e-4, 0.64, "grains fill up to 0.64 of the space"))]
+    #[schemars(transform = between(1e-4, 0.64, "give at most 0.64, the share of the space that grains fill"))]
     pub solid_fraction: f64,
     /// Length of the box in diameters.
     pub columns: usize,
     /// Height of the box in diameters.
     pub rows: usize,
     /// Smoothing length of the drag in diameters `[-]`.
-    #[schemars(transform = between(1.0, 10.0, "the drag needs some fluid around a grain; 2 to 3 hold short waves back"))]
+    #[schemars(transform = between(1.0, 10.0, "give 2 to 3, which suppress short waves"))]
     pub drag_smoothing_ratio: f64,
     /// Largest random displacement of a particle in spacings `[-]`; the paper's density source wants a lattice.
-    #[schemars(transform = between(0.0, 0.5, "0.001 breaks the symmetry of a lattice, 0.1 the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.001 to break the symmetry, or 0.1 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Simulated time over the time in which grains get to their slip `[-]`: u_t ρ_s/(2 (ρ_s − ρ_f) g) of a grain alone,
     /// |u_r| ρ_s/((ρ_s − ρ_f) g) of a suspension.
-    #[schemars(transform = between(10.0, 1e4, "the last 0.6 are averaged over; 40 for a grain alone, 12 for a suspension"))]
+    #[schemars(transform = between(10.0, 1e4, "give 40 for a single grain, 12 for a suspension"))]
     pub relaxation_times: f64,
     /// Numerics. Grains that share the pressure of the fluid (`continuity`) are a suspension, else one grain is alone.
     pub numerics: ProjectionNumerics,
@@ -92,23 +92,25 @@ impl Flow for SettlingFlow {
     fn check(&self) -> Result<(), ParameterError> {
         let SettlingGrains { grain_density, fluid_density, .. } = self.grains;
         if grain_density <= fluid_density {
-            let (rule, remedy) = ("greater than the density of the fluid", "grains that float do not settle");
+            let (rule, remedy) = ("greater than the fluid density", "give it in kg/m³; floating grains do not settle");
             return Err(ParameterError::field("grain_density", grain_density, rule, remedy));
         }
         self.check_operators()?;
         // periods that hold both kernels twice
         let least = (4.0 * self.drag_smoothing_ratio.max(self.numerics.smoothing_ratio)).ceil() as usize;
         for (name, value) in [("columns", self.columns), ("rows", self.rows)] {
-            let remedy = "the box must hold the reach of the kernels twice; 12 is quick";
+            let remedy = "give 12 for a quick run; the box must be wider than both kernels";
             rules::count(name, value, least, 1000, remedy)?;
         }
         let (rule, remedy) = match (self.is_suspension(), covers(self.law, self.solid_fraction)) {
-            (true, false) => ("a law for this `solid_fraction`", "\"ergun\" begins at 0.2"),
+            (true, false) => ("a law for this `solid_fraction`", "choose another; \"ergun\" holds from 0.2 on"),
             _ if self.slip().is_some() => return Ok(()),
-            (true, true) => ("a law that covers the grains' Reynolds number", "\"morsi-alexander\" ends at R = 50 000"),
+            (true, true) => {
+                ("a law for this Reynolds number", "choose another; \"morsi-alexander\" holds up to 50 000")
+            }
             (false, _) => (
-                "a law of one grain that covers its Reynolds number",
-                "leave out \"ergun\", and \"morsi-alexander\" above R = 50 000",
+                "a law for a single grain of its Reynolds number",
+                "choose another law than \"ergun\", or \"morsi-alexander\" above a Reynolds number of 50 000",
             ),
         };
         Err(ParameterError::field("law", self.law.name(), rule, remedy))
@@ -207,7 +209,7 @@ impl SettlingFlow {
             () if drag_slip == DragSlip::Pair => ("numerics.drag_slip", "pair", "\"mean\" in a suspension"),
             () => return Ok(()),
         };
-        let remedy = "a grain alone has other operators with `numerics.continuity = \"fluid\"`";
+        let remedy = "choose it, or set `numerics.continuity = \"fluid\"` for a single grain";
         Err(ParameterError::field(field, value, rule, remedy))
     }
 }

@@ -49,7 +49,7 @@ pub struct WaterColumnFlow {
     #[schemars(transform = positive("give it in metres, such as 0.05715"))]
     pub width: f64,
     /// Height over width `[-]`; 2 was measured, and 1 behind a gate.
-    #[schemars(transform = between(0.5, 4.0, "2 was measured"))]
+    #[schemars(transform = between(0.5, 4.0, "give 2, for which measurements exist"))]
     pub aspect_ratio: f64,
     /// Gravity `[m/s²]`.
     #[schemars(transform = rules::gravity())]
@@ -61,7 +61,7 @@ pub struct WaterColumnFlow {
     #[schemars(transform = not_negative("give it in Pa·s, such as 0.001"))]
     pub viscosity: f64,
     /// Bulk modulus over ρ0 g and the height `[-]`.
-    #[schemars(transform = between(50.0, 1e4, "200 make sound seven times as fast as the fall"))]
+    #[schemars(transform = between(50.0, 1e4, "give 200, with which sound is seven times as fast as the fall"))]
     pub stiffness: f64,
     /// Particles over the width.
     #[schemars(transform = rules::rows())]
@@ -76,14 +76,14 @@ pub struct WaterColumnFlow {
     #[schemars(transform = positive("give it in m/s, such as 4.53"))]
     pub gate_speed: f64,
     /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.3, "0.05 breaks the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.3, "give 0.05 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Simulated time over √(a/(2g)) `[-]`.
-    #[schemars(transform = between(2.6, 4.0, "the measured front ends at 2.51"))]
+    #[schemars(transform = between(2.6, 4.0, "give 2.6 or more: the measured front ends at 2.51"))]
     pub duration: f64,
-    /// Numerics.
+    /// Numerical scheme of the weakly compressible model.
     pub numerics: Numerics,
 }
 

@@ -53,11 +53,11 @@ pub(super) fn observe(run: &WaterColumnFlow, given: &ExternalData) -> FromExtern
         }
         (no_time, _) => {
             let (field, rule) = if no_time {
-                ("series.time", "given, or `relative_time`, beside a front")
+                ("series.time", "given, or `relative_time`, together with a front")
             } else {
-                ("series.front", "given, or `relative_front`, beside a time")
+                ("series.front", "given, or `relative_front`, together with a time")
             };
-            Err(FieldError::new(field, "absent", rule, "name the column of the file that holds it"))
+            Err(FieldError::new(field, "missing", rule, "name the column of the file that contains it"))
         }
     }
 }
@@ -71,11 +71,10 @@ fn as_long_as_measured(run: &WaterColumnFlow, time: &[f64]) -> Result<(), FieldE
             let in_seconds = |time: f64| time * run.time_scale();
             let value = format!("up to t √(2g/a) = {last} ({:.4} s)", in_seconds(*last));
             let rule = format!(
-                "at least up to the last measured place, t √(2g/a) = {needed} ({:.4} s for this width)",
+                "up to at least the last measurement, t √(2g/a) = {needed} ({:.4} s for this width)",
                 in_seconds(needed)
             );
-            let remedy =
-                "give the front for longer, or leave the series out and give what the code has by [run.numbers]";
+            let remedy = "give a longer series, or leave it out and give single numbers under [run.numbers]";
             Err(FieldError::new("series.time", value, &rule, remedy))
         }
         _ => Ok(()),
@@ -133,9 +132,9 @@ mod tests {
         assert!(seen(&short(needed)).expect("long enough").is_some());
         assert_eq!(
             seen(&short(2.4)).expect_err("too short").to_string(),
-            "`series.time` is up to t √(2g/a) = 2.4 (0.1295 s), but must be at least up to the last measured place, \
-             t √(2g/a) = 2.51 (0.1355 s for this width); give the front for longer, or leave the series out and give what \
-             the code has by [run.numbers]"
+            "`series.time` is up to t √(2g/a) = 2.4 (0.1295 s), but must be up to at least the last measurement, \
+             t √(2g/a) = 2.51 (0.1355 s for this width); give a longer series, or leave it out and give single numbers under \
+             [run.numbers]"
         );
     }
 }

@@ -55,7 +55,7 @@ pub enum Tier {
     Quick,
     /// Minutes to hours per case.
     Paper,
-    /// As long as it takes.
+    /// Hours or longer per case, at the finest resolution.
     Fine,
 }
 

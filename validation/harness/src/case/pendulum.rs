@@ -16,7 +16,7 @@ pub(crate) struct Pendulum;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct Swing {
     /// Start `[°]`.
-    #[schemars(transform = inside(-90.0, 90.0, "give it in degrees").in_words("inside (−90°, 90°)"))]
+    #[schemars(transform = inside(-90.0, 90.0, "give it in degrees").in_words("above −90° and below 90°"))]
     slope_angle: f64,
     steps: u64,
     limit: f64,

@@ -54,8 +54,8 @@ fn damaged_checkpoint_gives_way_to_the_previous_one() {
         bytes
     };
     assert_eq!(refused(&changed(whole.len() - 1)), "is damaged");
-    assert_eq!(refused(&changed(0)), "is no bagnold checkpoint");
-    assert_eq!(refused(&changed(19)), "has the form 0, this program reads the form 1");
+    assert_eq!(refused(&changed(0)), "is not a bagnold checkpoint");
+    assert_eq!(refused(&changed(19)), "has format 0, but this program reads format 1");
     assert_eq!(refused(&changed(31)), "belongs to another run, or to another version of the program");
     std::fs::remove_file(&newest).expect("removable");
     std::fs::create_dir(&newest).expect("writable");

@@ -50,7 +50,7 @@ pub struct Control {
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AcceptingMetric {
-    /// Its name.
+    /// Name of the metric that accepts the control.
     pub metric: String,
     /// Reason for accepting it.
     pub because: String,

@@ -19,7 +19,7 @@ struct File {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("read {file}: {message}")]
 pub struct ControlError {
-    /// The file.
+    /// File of the controls.
     pub file: String,
     /// The defect and its remedy.
     pub message: String,
@@ -47,20 +47,20 @@ fn parse(file: &str, text: &str) -> Result<Vec<Control>, ControlError> {
     for row in rows.controls {
         let of = |rule: &str| refuse(format!("control \"{}\" {rule}", row.name));
         if controls.iter().any(|other| other.name == row.name) {
-            return Err(of("stands there twice; give each a name of its own"));
+            return Err(of("is listed twice; give each another name"));
         }
         if row.set.is_empty() == row.solver.is_none() {
             return Err(of("needs either `set`, changes of parameters, or `solver`, an error of the solver"));
         }
         if row.rejected_by.is_empty() && row.accepted_by.is_empty() {
-            return Err(of("is meant for no metric; name some in `rejected_by` or `accepted_by`"));
+            return Err(of("names no metric; name some in `rejected_by` or `accepted_by`"));
         }
         controls.push(row);
     }
     for name in rows.series {
         let series = ErrorSeries::find(&name);
-        let series =
-            series.ok_or_else(|| refuse(format!("`series` names \"{name}\", which is none; name a known one")))?;
+        let series = series
+            .ok_or_else(|| refuse(format!("`series` names \"{name}\", which does not exist; name a known one")))?;
         controls.extend(series.controls());
     }
     Ok(controls)

@@ -6,7 +6,7 @@ use crate::metric::{Metric, Variant, Verdict};
 /// Answer of a gate to a control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Answer {
-    /// It fails.
+    /// The gate fails with the wrong physics, as it must.
     Rejects,
     /// It is no longer judged, which fails a report as well.
     NotJudged,
@@ -32,7 +32,7 @@ pub struct Found {
 /// A control that was run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControlTrial {
-    /// The control.
+    /// Control that was tried.
     pub control: Control,
     /// All numbers that its runs were to give.
     pub found: Vec<Found>,

@@ -28,7 +28,7 @@ pub fn parse_plan<T: DeserializeOwned>(file: &Path, text: &str, command: &str) -
             *own == command && error.message().starts_with(&format!("unknown field `{key}`"))
         };
         if let Some((_, key, now)) = FORMER.iter().find(is_former) {
-            return FieldError::new(key, "given", "absent", &format!("rename it to `{now}`"));
+            return FieldError::finding(key, "outdated name", &format!("rename it to `{now}`"));
         }
         let remedy = format!("`{command} --help` shows a plan");
         FieldError::of_toml(text, &error, in_plain_words(text, &error), &remedy)
@@ -42,7 +42,7 @@ fn in_plain_words(text: &str, error: &toml::de::Error) -> String {
         ("expected f64", "expected a number, without quotes"),
         ("expected usize", "expected a whole number, without quotes"),
         ("expected u64", "expected a whole number, without quotes"),
-        ("expected a sequence", "expected a list, in [ ]"),
+        ("expected a sequence", "expected a list in brackets, [ ]"),
         ("expected a boolean", "expected true or false, without quotes"),
     ];
     let message = error.message();
@@ -52,5 +52,5 @@ fn in_plain_words(text: &str, error: &toml::de::Error) -> String {
     let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
     let field = before.lines().next_back().and_then(|line| line.split_once('='));
     let field = field.map_or_else(String::new, |(field, _)| format!("`{}`: ", field.trim()));
-    format!("{field}{}", message.replace(programmers, words))
+    format!("{field}{}", message.replace(programmers, words).replace("invalid type: ", "found "))
 }

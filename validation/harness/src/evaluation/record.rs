@@ -18,7 +18,7 @@ pub struct MetricValue {
     pub variant: Variant,
     /// The value, in `unit`.
     pub value: f64,
-    /// Its unit.
+    /// Unit of the value.
     pub unit: String,
     /// The gate's outcome.
     pub verdict: Verdict,

@@ -124,8 +124,8 @@ impl MeasuredData {
             (Some((line, _)), Some(_)) => {
                 return refuse(
                     &format!("line {line}"),
-                    "a name for each column is missing",
-                    "separate columns by commas",
+                    "names of columns and values differ in number",
+                    "name each column, and separate names and values by commas",
                 );
             }
             _ => return refuse("table", "missing", "write the columns' names and at least one row below the header"),
@@ -215,7 +215,7 @@ impl MeasuredData {
 
     /// Error of a label that is not among those allowed.
     pub fn bad_label(&self, column: &str, label: &str, allowed: &str) -> FieldError {
-        FieldError::new(column, format!("\"{label}\""), &format!("one of {allowed}"), "mend the row")
+        FieldError::new(column, format!("\"{label}\""), &format!("one of {allowed}"), "correct the row")
             .in_file(&self.file)
     }
 
@@ -240,9 +240,9 @@ impl NumberColumn {
         let number = |(line, words): &(usize, Vec<&str>)| {
             let number = words[place].parse::<f64>().ok();
             number.filter(|value| value.abs() <= LARGEST && !is_mark(*value)).ok_or_else(|| {
-                let value = format!("\"{}\" in column {heading}", words[place]);
-                let remedy = "write one with a decimal point, or drop the row";
-                FieldError::new(&format!("line {line}"), value, "a finite measured value", remedy)
+                let defect = format!("\"{}\" in column {heading} is not a measured value", words[place]);
+                let remedy = "write a finite number with a decimal point, or leave the row out";
+                FieldError::finding(&format!("line {line}"), defect, remedy)
             })
         };
         let values = rows.iter().map(number).collect::<Result<_, _>>()?;
@@ -266,7 +266,7 @@ fn parse_metadata(text: &str) -> Result<Metadata, FieldError> {
     })?;
     if metadata.confidence == Confidence::Exact {
         let rule = format!("one of {}", Confidence::STATED);
-        return Err(FieldError::new("# confidence", "exact", &rule, "state how sure the values are"));
+        return Err(FieldError::new("# confidence", "exact", &rule, "state the confidence in the values"));
     }
     Ok(metadata)
 }

@@ -41,7 +41,7 @@ fn a_bad_number_is_located() {
     for bad in ["abc", "NaN", "inf", "", "1,5", "-9999"] {
         let field = if bad.contains(',') { format!("\"{bad}\"") } else { bad.to_owned() };
         let error = message_of_table(&format!("y [m],u [m/s]\n1,2\n2,{field}\n"));
-        let place = format!("data.csv: `line 10` is \"{bad}\" in column u [m/s], but must be a finite measured value;");
+        let place = format!("data.csv: `line 10`: \"{bad}\" in column u [m/s] is not a measured value;");
         assert!(error.starts_with(&place), "{error}");
     }
 }
@@ -52,7 +52,7 @@ fn a_bad_table_is_located() {
         ("y [m],u [m/s]\n1,2\n1\n", "`line 10`: 1 columns, and the heading has 2"),
         ("y [m],u [m/s]\n1,2,3\n", "`line 9`: 3 columns, and the heading has 2"),
         ("y [m],y [mm]\n1,2\n", "`line 8`: two columns `y`"),
-        ("y [m]  u [m/s]\n1  2\n", "`line 8`: a name for each column is missing; separate columns by commas"),
+        ("y [m]  u [m/s]\n1  2\n", "`line 8`: names of columns and values differ in number; name each column"),
         ("y [m],u [m/s]\n", "`table`: missing"),
         ("", "`table`: missing"),
     ];
@@ -100,7 +100,7 @@ fn rows_are_found_by_their_labels_and_say_how_sure_they_are() {
     assert_eq!(data.row("law", "d").expect_err("absent").to_string(), "data.csv: `law`: no row `d`; the rows are a, b");
     assert_eq!(
         data.upper_ends("law").expect_err("words").to_string(),
-        "data.csv: `law` is \"a\", but must be one of finite numbers and `open`; mend the row"
+        "data.csv: `law` is \"a\", but must be one of finite numbers and `open`; correct the row"
     );
     let bad =
         MeasuredData::parse(Path::new("data.csv"), &format!("{HEADER}law,confidence\na,sure\n")).expect("readable");

@@ -19,7 +19,8 @@ pub fn shipped_tables() -> impl Iterator<Item = (&'static str, &'static str)> {
 /// If there is no such table, or it is malformed.
 pub fn shipped_table(name: &str) -> Result<MeasuredData, FieldError> {
     let found = FILES.iter().find(|(own, _)| *own == name);
-    let (_, text) = found.ok_or_else(|| FieldError::finding(name, "no table of the program", "mend its name"))?;
+    let (_, text) =
+        found.ok_or_else(|| FieldError::finding(name, "unknown table of the program", "correct its name"))?;
     MeasuredData::parse(&Path::new("reference-data").join(name), text)
 }
 
@@ -69,6 +70,6 @@ mod tests {
     #[test]
     fn a_table_that_is_not_there_is_named() {
         let error = shipped_table("bagnold/no.csv").expect_err("absent").to_string();
-        assert_eq!(error, "`bagnold/no.csv`: no table of the program; mend its name");
+        assert_eq!(error, "`bagnold/no.csv`: unknown table of the program; correct its name");
     }
 }

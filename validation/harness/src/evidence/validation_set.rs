@@ -21,7 +21,7 @@ pub struct ValidatedComparison {
     pub case: String,
     /// Name of the metric.
     pub quantity: String,
-    /// Its variant.
+    /// Variant of the compared run.
     pub variant: Variant,
     /// Unit of value and reference.
     pub unit: String,

@@ -37,10 +37,10 @@ pub(crate) enum MeshError {
     #[error("cannot be read ({0})")]
     Unreadable(std::io::Error),
     /// It is no STL, or damaged.
-    #[error("is no sound STL file ({0})")]
+    #[error("is not a valid STL file ({0})")]
     Malformed(std::io::Error),
     /// Text that continues after its solid.
-    #[error("holds several solids")]
+    #[error("contains several solids")]
     SeveralSolids,
     /// A coordinate that is no number.
     #[error("has a coordinate that is not finite in triangle {0}")]
@@ -54,15 +54,15 @@ pub(crate) enum MeshError {
 }
 
 impl MeshError {
-    /// Remedy.
+    /// Instruction to the user for this fault.
     pub(crate) fn remedy(&self) -> &'static str {
         match self {
-            Self::Unreadable(_) => "check the path, which begins at this file, and its permissions",
-            Self::Malformed(_) => "write the mesh as STL, anew if it was cut short",
-            Self::SeveralSolids => "write each as a file of its own, or all as one solid",
-            Self::NotFinite(_) => "repair the mesh",
-            Self::Empty(_) => "give a surface, in metres",
-            Self::TooMany => "simplify the mesh: triangles finer than the particle spacing change nothing",
+            Self::Unreadable(_) => "check the path, which is relative to this file, and its permissions",
+            Self::Malformed(_) => "export the mesh again as STL",
+            Self::SeveralSolids => "write each to a separate file, or all as one solid",
+            Self::NotFinite(_) => "repair or export the mesh again",
+            Self::Empty(_) => "export a surface with triangles",
+            Self::TooMany => "simplify the mesh; triangles smaller than the particle spacing have no effect",
         }
     }
 }
@@ -168,14 +168,14 @@ mod tests {
 
     #[test]
     fn defect_of_a_file_is_named() {
-        assert_eq!(refused(&binary()[..150]), "is no sound STL file (failed to fill whole buffer)");
-        assert_eq!(refused(&TEXT.as_bytes()[..78]), "is no sound STL file (EOF while expecting vertex)");
+        assert_eq!(refused(&binary()[..150]), "is not a valid STL file (failed to fill whole buffer)");
+        assert_eq!(refused(&TEXT.as_bytes()[..78]), "is not a valid STL file (EOF while expecting vertex)");
         for other in [&b" \n"[..], b"# Blender\nv 0 0 0\n", b"<!DOCTYPE html>", b"NCOLS 10\nNROWS 10\n"] {
-            assert!(refused(other).starts_with("is no sound STL file ("), "{}", refused(other));
+            assert!(refused(other).starts_with("is not a valid STL file ("), "{}", refused(other));
         }
         assert_eq!(mesh_of(TEXT.to_uppercase().into()).expect("capitals").left_out, 1);
         assert_eq!(refused(b"solid nothing\nendsolid nothing\n"), "has no triangle with an area (0 without)");
-        assert_eq!(refused(TEXT.repeat(2).as_bytes()), "holds several solids");
+        assert_eq!(refused(TEXT.repeat(2).as_bytes()), "contains several solids");
         let mut bytes = binary();
         bytes[HEADER + RECORD + 12..HEADER + RECORD + 16].copy_from_slice(&f32::NAN.to_le_bytes());
         assert_eq!(refused(&bytes), "has a coordinate that is not finite in triangle 1");

@@ -15,11 +15,11 @@ pub fn check_name(field: &str, name: &str) -> Result<(), FieldError> {
     let refused = |rule: &str, remedy: &str| Err(FieldError::new(field, format!("\"{name}\""), rule, remedy));
     let length = name.chars().count();
     if name.trim().is_empty() {
-        return refused("a name of at least one letter", "give a name");
+        return refused("a name of one letter or more", "give a name");
     }
     if length > LONGEST_NAME {
-        let rule = format!("a name of at most {LONGEST_NAME} characters, not of {length}");
-        return refused(&rule, "shorten it: files, columns and legends are named after it");
+        let defect = format!("a name of {length} characters, above the limit of {LONGEST_NAME}");
+        return Err(FieldError::finding(field, defect, "shorten it: files, columns and legends carry it"));
     }
     check_text(field, name)
 }
@@ -30,8 +30,8 @@ pub fn check_name(field: &str, name: &str) -> Result<(), FieldError> {
 /// The field that holds the text.
 pub fn check_text(field: &str, text: &str) -> Result<(), FieldError> {
     if text.chars().any(is_control) {
-        let rule = "free of control characters";
-        let remedy = "remove them: a terminal would obey them";
+        let rule = "without control characters";
+        let remedy = "remove them: a terminal would interpret them";
         return Err(FieldError::new(field, format!("\"{text}\""), rule, remedy));
     }
     Ok(())
@@ -60,15 +60,20 @@ pub fn is_same_heading(one: &str, other: &str) -> bool {
 /// The name that is most like `name`, if any is like it at all or has it for one of its words.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    // Jaro–Winkler forgives a wrong tail and swapped letters; below 0.7 a suggestion would be a guess.
+    // Jaro–Winkler forgives a wrong tail and swapped letters; below this a suggestion would be a guess.
+    const LEAST: f64 = 0.85;
+    let table = name.rfind('.').map_or("", |dot| &name[..=dot]);
     let likeness = |candidate: &str| {
+        // names of one table are told by what follows
+        let rest = candidate.strip_prefix(table);
+        let (name, candidate) = rest.map_or((name, candidate), |rest| (&name[table.len()..], rest));
         let is_word = candidate.split(['_', '-', '.']).any(|word| word == name);
-        strsim::jaro_winkler(name, candidate).max(if is_word { 0.7 } else { 0.0 })
+        strsim::jaro_winkler(name, candidate).max(if is_word { LEAST } else { 0.0 })
     };
     known
         .into_iter()
         .map(|candidate| (likeness(candidate), candidate))
-        .filter(|(likeness, _)| *likeness >= 0.7)
+        .filter(|(likeness, _)| *likeness >= LEAST)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, candidate)| candidate.to_owned())
 }
@@ -102,11 +107,11 @@ mod tests {
             assert_eq!(check_name("name", name), Ok(()));
         }
         let message = |name: &str| check_name("name", name).expect_err("refused").to_string();
-        assert_eq!(message(" "), "`name` is \" \", but must be a name of at least one letter; give a name");
-        assert!(message(&"a".repeat(5000)).contains("a name of at most 100 characters, not of 5000; shorten it"));
+        assert_eq!(message(" "), "`name` is \" \", but must be a name of one letter or more; give a name");
+        assert!(message(&"a".repeat(5000)).contains("a name of 5000 characters, above the limit of 100; shorten it"));
         for letter in ['\0', '\u{1b}', '\u{7f}', '\u{9b}', '\u{202e}', '\u{2066}', '\u{200f}', '\n'] {
             let message = message(&format!("a{letter}b"));
-            assert!(message.contains("free of control characters") && !message.contains(letter), "{message}");
+            assert!(message.contains("without control characters") && !message.contains(letter), "{message}");
         }
     }
 }

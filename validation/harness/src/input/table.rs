@@ -50,13 +50,13 @@ fn has_open_quote(line: &str) -> bool {
 pub(super) fn number_remedy(word: &str) -> &'static str {
     let is_missing = ["", "-", "--", "na", "n/a", "null", "none"].contains(&word.to_ascii_lowercase().as_str());
     if is_missing || word.parse().is_ok_and(is_mark) {
-        "leave out rows in which a value is missing"
+        "leave out rows with missing values"
     } else if is_number(&word.replace(',', "")) && !is_number(&word.replace(',', ".")) {
         "write numbers without separators of thousands"
     } else if word.contains([';', '\t', ' ']) {
-        "use one separator for all columns, and write decimals with a point"
+        "use one separator for all columns, and a decimal point"
     } else {
-        "write decimals with a point"
+        "use a decimal point"
     }
 }
 
@@ -119,10 +119,10 @@ mod tests {
         for word in ["1;2", "1,5;2", "1 2"] {
             assert!(number_remedy(word).starts_with("use one separator for all columns"), "{word}");
         }
-        assert_eq!(number_remedy("1,5"), "write decimals with a point");
+        assert_eq!(number_remedy("1,5"), "use a decimal point");
         assert_eq!(number_remedy("1,234.5"), "write numbers without separators of thousands");
-        assert_eq!(number_remedy("-9999"), "leave out rows in which a value is missing");
-        assert_eq!(number_remedy("N/A"), "leave out rows in which a value is missing");
+        assert_eq!(number_remedy("-9999"), "leave out rows with missing values");
+        assert_eq!(number_remedy("N/A"), "leave out rows with missing values");
         assert!(row_remedy("1,5,2,5", &["1", "5", "2", "5"], 2).starts_with("write 1.5 for 1,5, or"));
         assert!(row_remedy("1;2", &["1;2"], 2).starts_with("use one separator"));
         assert_eq!(row_remedy("1,2,3", &["1", "2", "3"], 2), "complete or shorten the row");

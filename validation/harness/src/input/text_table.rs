@@ -26,11 +26,11 @@ impl TextTable {
     pub fn parse(text: &str, file: &Path) -> Result<Self, FieldError> {
         let text = &*plain_lines(text);
         let table = TableRows::of(text, file)?;
-        let wrong = |line: usize, value: &str, rule: &str, remedy: &str| {
-            FieldError::new(&format!("line {line}"), value, rule, remedy).in_file(file)
+        let wrong = |line: usize, defect: &str, remedy: &str| {
+            FieldError::finding(&format!("line {line}"), defect, remedy).in_file(file)
         };
         let Some((_, first)) = table.rows.first() else {
-            return Err(wrong(1, "without numbers", "the first of a table", "give a file with columns of numbers"));
+            return Err(wrong(1, "no table of numbers below it", "give a file with columns of numbers"));
         };
         if let Some(fault) = table.heading.as_ref().and_then(|(line, _)| text_above(*line, first)) {
             return Err(fault.in_file(file));
@@ -43,8 +43,8 @@ impl TextTable {
         for (line, words) in table.rows {
             for ((column, name), word) in columns.iter_mut().zip(&headings).zip(words) {
                 let value = word.parse::<f64>().map_err(|_| {
-                    let value = format!("\"{}\" in column {}", shortened(word), shortened(name));
-                    wrong(line, &value, "a number", number_remedy(word))
+                    let defect = format!("\"{}\" in column {} is not a number", shortened(word), shortened(name));
+                    wrong(line, &defect, number_remedy(word))
                 })?;
                 column.push(value);
             }
@@ -61,9 +61,10 @@ impl TextTable {
         let repeats: Vec<&Vec<f64>> = named.map(|(_, column)| column).collect();
         let Some(first) = repeats.first() else {
             let guess = did_you_mean(&nearest(heading, self.headings.iter().map(String::as_str)));
-            let rule = format!("a column of {}: {}", file.display(), shortened(&self.headings.join(", ")));
-            let remedy = format!("{guess}headings are taken as they stand");
-            return Err(FieldError::new(field, format!("\"{heading}\""), &rule, &remedy));
+            let defect = format!("no column \"{heading}\" in {}", file.display());
+            let headings = shortened(&self.headings.join(", "));
+            let remedy = format!("{guess}give one of its headings exactly as written: {headings}");
+            return Err(FieldError::finding(field, defect, &remedy));
         };
         let mean = |row: usize| repeats.iter().map(|own| own[row]).sum::<f64>() / repeats.len() as f64;
         Ok((0..first.len()).map(mean).collect())
@@ -146,9 +147,9 @@ impl<'t> TableRows<'t> {
 fn text_above(line: usize, row: &[&str]) -> Option<FieldError> {
     let is_name = |word: &&str| word.starts_with(|first: char| first.is_alphabetic() || "[(".contains(first));
     let is_heading = row.iter().all(|word| is_name(word) && word.parse::<f64>().is_err());
-    let remedy = "put # before text above the table, and units into its heading";
+    let remedy = "put # before it, and write units into the heading";
     let field = format!("line {line}");
-    is_heading.then(|| FieldError::new(&field, "text above another line of text", "the heading", remedy))
+    is_heading.then(|| FieldError::finding(&field, "a line of text above the heading", remedy))
 }
 
 /// Whether a line holds nothing, or nothing but separators.
@@ -222,10 +223,7 @@ mod tests {
     #[test]
     fn invalid_table_is_refused_by_line() {
         let message = |text: &str| parse(text).expect_err("no table").to_string();
-        assert_eq!(
-            message(""),
-            "a.csv: `line 1` is without numbers, but must be the first of a table; give a file with columns of numbers"
-        );
+        assert_eq!(message(""), "a.csv: `line 1`: no table of numbers below it; give a file with columns of numbers");
         assert_eq!(
             message("x,y\n1,2\n3\n"),
             "a.csv: `line 3`: 1 columns, and the heading has 2; complete or shorten the row"
@@ -236,11 +234,11 @@ mod tests {
         );
         assert_eq!(
             message("x,y\n1,2\n3,b\n"),
-            "a.csv: `line 3` is \"b\" in column y, but must be a number; write decimals with a point"
+            "a.csv: `line 3`: \"b\" in column y is not a number; use a decimal point"
         );
         assert_eq!(
             message("x,y\n1,\n3,2\n"),
-            "a.csv: `line 2` is \"\" in column y, but must be a number; leave out rows in which a value is missing"
+            "a.csv: `line 2`: \"\" in column y is not a number; leave out rows with missing values"
         );
         assert_eq!(
             message("x,y,z\n1,2\n"),
@@ -248,21 +246,21 @@ mod tests {
         );
         assert_eq!(
             message("x,y\n\"1,234.5\",2\n"),
-            "a.csv: `line 2` is \"1,234.5\" in column x, but must be a number; write numbers without separators of thousands"
+            "a.csv: `line 2`: \"1,234.5\" in column x is not a number; write numbers without separators of thousands"
         );
         for text in ["Run 7 of June\nx,y\n1,2\n", "Run 7, sand, June\nx [m],y\n1,2\n", "x,y\n[m],[m]\n1,2\n"] {
-            let said = "a.csv: `line 1` is text above another line of text, but must be the heading; put # before";
+            let said = "a.csv: `line 1`: a line of text above the heading; put # before";
             assert!(message(text).starts_with(said), "{}", message(text));
         }
         assert_eq!(message("x,y\n1,2\n\"3,4\n"), "a.csv: `line 3`: unclosed quote; close the quote, or remove it");
         assert!(message("x,y\n1,5,2,5\n").ends_with("write 1.5 for 1,5, or complete or shorten the row"));
         assert!(message("x,y\n1,\u{202e}2\n").contains("U+202E"));
-        assert!(message("\t\"\"").contains("without numbers"));
+        assert!(message("\t\"\"").contains("no table of numbers"));
         assert_eq!(parse("\u{feff}x,y\n1,2\n").expect("a table").headings, ["x", "y"]);
         let table = parse("x,velocity\n1,2\n").expect("a table");
         assert_eq!(
             table.column("velocty", "columns.vx", Path::new("a.csv")).expect_err("no such column").to_string(),
-            "`columns.vx` is \"velocty\", but must be a column of a.csv: x, velocity; did you mean `velocity`? headings are taken as they stand"
+            "`columns.vx`: no column \"velocty\" in a.csv; did you mean `velocity`? give one of its headings exactly as written: x, velocity"
         );
     }
 

@@ -27,8 +27,7 @@ pub enum ColumnSource {
 impl ColumnSource {
     /// `"x [cm]"` for a column, `{ value = 0.25, unit = "cm^2" }` for what is the same for all.
     pub fn parse(value: &toml::Value, field: &str) -> Result<Self, FieldError> {
-        const REMEDY: &str =
-            "such as \"x [cm]\" for a column with its unit, or { value = 0.25, unit = \"cm^2\" } for all";
+        const REMEDY: &str = "write \"x [cm]\" for a column, or { value = 0.25, unit = \"cm^2\" } for a constant";
         let wrong = |text: String| FieldError::new(field, text, "a heading with its unit in brackets", REMEDY);
         match value {
             toml::Value::String(text) => {
@@ -69,12 +68,12 @@ impl ColumnSource {
         };
         scales.map_or_else(|| unit::factor(self.unit(), item.unit), with).ok_or_else(|| {
             let is_scaled = with(RunScales { length: 1.0, time: 1.0 }).is_some();
-            let rule = format!("a unit of the same kind as {}", item.unit);
+            let rule = format!("a unit that converts to {}", item.unit);
             let remedy = if is_scaled {
-                "this case has no r_0 and t_0: convert the column".to_owned()
+                "convert the column: this case defines no r_0 and t_0".to_owned()
             } else {
                 let scaled = if scales.is_some() { "r0 or t0 of the column, or " } else { "" };
-                format!("such as {scaled}cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes")
+                format!("give such as {scaled}cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes")
             };
             FieldError::new(field, format!("[{}]", self.unit()), &rule, &remedy)
         })
@@ -110,7 +109,7 @@ mod tests {
             parse("\"t [s]\"").expect("a heading").factor(&ExternalColumn::new("x", "m", "place"), "columns.x", None);
         assert_eq!(
             wrong.expect_err("not a length").to_string(),
-            "`columns.x` is [s], but must be a unit of the same kind as m; such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes"
+            "`columns.x` is [s], but must be a unit that converts to m; give such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes"
         );
     }
 
@@ -130,10 +129,10 @@ mod tests {
             assert_eq!(factor(text, unit, scales), Ok(expected), "{text}");
         }
         let message = |text, scales| factor(text, "m", scales).expect_err("no length").to_string();
-        let without = "`columns.x` is [r0], but must be a unit of the same kind as m; this case has no r_0 and t_0: convert the column";
+        let without = "`columns.x` is [r0], but must be a unit that converts to m; convert the column: this case defines no r_0 and t_0";
         assert!(message("\"x [r0]\"", None).starts_with(without), "{}", message("\"x [r0]\"", None));
         let wrong =
-            "`columns.x` is [t0], but must be a unit of the same kind as m; such as r0 or t0 of the column, or cm";
+            "`columns.x` is [t0], but must be a unit that converts to m; give such as r0 or t0 of the column, or cm";
         assert!(message("\"x [t0]\"", scales).starts_with(wrong));
     }
 }

@@ -98,9 +98,8 @@ pub fn read_overlay(
     let axes = if measurements.is_empty() || outline.is_some() { Vec::new() } else { case.axes() };
     for (number, own) in measurements.iter().enumerate() {
         if let Some(twin) = measurements[..number].iter().find(|twin| twin.kept() == own.kept()) {
-            let rule = format!("of another name than {}", twin.path.display());
-            let remedy = "its name stands in figures and metrics: rename one";
-            return Err(FieldError::new("overlay", own.path.display(), &rule, remedy).into());
+            let defect = format!("{} has the same name as {}", own.path.display(), twin.path.display());
+            return Err(FieldError::finding("overlay", defect, "rename one of the two files").into());
         }
         if let Some(CaseResult { figures, .. }) = &outline {
             MatchingPanel::of(own, figures)?.curves(own, figures)?;

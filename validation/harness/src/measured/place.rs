@@ -28,7 +28,7 @@ pub(super) struct MatchingPanel {
 /// A curve of the panel beside the measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CurveResidual {
-    /// Its legend.
+    /// Legend of the compared curve.
     pub(super) label: String,
     /// Root mean square of (curve − measurement)/uncertainty where the curve has a value `[-]`; not a number where it has none.
     pub(super) residual: f64,
@@ -113,7 +113,8 @@ impl MatchingPanel {
             let labels: Vec<String> =
                 panel.series.iter().filter(|one| is_ours(one)).map(|one| format!("`{}`", one.label)).collect();
             let rule = format!("the legend of a curve of {}: {}", figures[self.figure].name, labels.join(", "));
-            let error = FieldError::new("# curve", format!("\"{label}\""), &rule, "without it all are compared");
+            let remedy = "correct it, or leave it out to compare all";
+            let error = FieldError::new("# curve", format!("\"{label}\""), &rule, remedy);
             return Err(error.in_file(&measurements.path));
         }
         let residual = |series: &&Series| {
@@ -129,7 +130,7 @@ impl MatchingPanel {
             let (name, figure) = (&measurements.abscissa.name, &figures[self.figure].name);
             let values = measurements.abscissa.values.iter().map(|value| value * self.factors.0);
             let points = series.iter().flat_map(|series| &series.points).map(|point| self.turned(*point).0);
-            let rule = format!("where a curve of {figure} is; they reach over {}", range(points));
+            let rule = format!("within the curves of {figure}, which cover {}", range(points));
             let error = FieldError::new(name, range(values), &rule, "check the unit and the origin of the abscissa");
             return Err(error.in_file(&measurements.path));
         }
@@ -234,9 +235,9 @@ fn too_many(measurements: &Measurements, figures: &[Figure], several: &[Matching
         if title.is_empty() { figure.name.clone() } else { format!("{}, panel {title}", figure.name) }
     };
     let names: Vec<String> = several.iter().map(name).collect();
-    let rule = format!("the axes of a single panel, but these have them: {}", names.join("; "));
-    let remedy = "write `# figure: NAME`, and `# panel: TITLE` where that does not suffice, above the table";
-    FieldError::new("columns", axes(measurements), &rule, remedy).in_file(&measurements.path)
+    let defect = format!("{} are the axes of several panels: {}", axes(measurements), names.join("; "));
+    let remedy = "name one above the table by `# figure: NAME`, and if needed `# panel: TITLE`";
+    FieldError::finding("columns", defect, remedy).in_file(&measurements.path)
 }
 
 fn range(values: impl Iterator<Item = f64>) -> String {

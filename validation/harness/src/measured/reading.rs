@@ -62,7 +62,7 @@ pub(super) fn read(given: &MeasuredFiles, wanted: WantedColumns<'_>) -> Result<M
         Ok(parse(path, &plain_lines(&text), names, wanted).map_err(|error| error.in_file(path))?)
     };
     let [first, others @ ..] = given.files() else {
-        return Err(ParameterError::field("file", "[]", "at least one file", "name a CSV file with measurements"));
+        return Err(ParameterError::field("file", "no file", "", "name a CSV file with measurements"));
     };
     let mut whole = read(first)?;
     for path in others {
@@ -82,15 +82,15 @@ fn parse(
     let table = TableRows::of(text, path)?;
     let listed = table.headings().join(", ");
     let wrong = |defect: &str, missing: Option<&&str>| {
-        let (rule, remedy) = missing.map_or((FORM.to_owned(), format!("{ROW}, or {NAMED}")), |name| {
+        let (defect, remedy) = missing.map_or((defect.to_owned(), format!("{ROW}, or {NAMED}")), |name| {
             let name = name.rsplit_once(": ").map_or(*name, |(_, own)| own);
             let columns = format!("columns = {{ \"{name}\" = \"HEADING [UNIT]\" }}");
-            (format!("headings with `{name}` among them"), format!("rename one, or give {{ files = […], {columns} }}"))
+            (format!("no column `{name}` among "), format!("rename one, or give {{ files = […], {columns} }}"))
         });
-        FieldError::new("columns", format!("{listed}{defect}"), &rule, &remedy)
+        FieldError::finding("columns", format!("{defect}{listed}"), &remedy)
     };
     if listed.is_empty() {
-        return Err(wrong("without a heading for each column", None));
+        return Err(wrong("no heading for each column", None));
     }
     let renamed = names.map(|names| renamed(table.headings(), names)).transpose()?;
     let mut columns = Vec::new();
@@ -120,7 +120,7 @@ fn parse(
     // a third column is the uncertainty, whatever its name
     let third = rest.first().copied().filter(|_| columns.len() == 3);
     if third.is_none() && !rest.is_empty() && wanted.quantity.is_empty() {
-        return Err(wrong(": several quantities", None));
+        return Err(wrong("several quantities: ", None));
     }
     let behind = columns.iter().skip_while(|own| !is_repeat(own)).find(is_stated);
     let place = table.headings().iter().position(|heading| *heading == "variant");
@@ -146,7 +146,7 @@ fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<V
             if !headings.iter().any(|own| is_meant(own)) {
                 let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
                 let remedy =
-                    "such as front = \"toe [cm]\"; behind a heading without brackets write them: \"toe (cm) [cm]\"";
+                    "write front = \"toe [cm]\"; if the heading has no unit in brackets, add it: \"toe (cm) [cm]\"";
                 return Err(FieldError::new(&format!("columns.{name}"), one, &rule, remedy));
             }
             for (new, _) in renamed.iter_mut().zip(headings).filter(|(_, own)| is_meant(own)) {
@@ -172,10 +172,10 @@ fn is_uncertainty(column: &NumberColumn) -> bool {
 pub(super) fn in_unit(column: &NumberColumn, to: &str) -> Result<Vec<f64>, FieldError> {
     let factor = unit::factor(&column.unit, to).ok_or_else(|| {
         let rule = match [to, &column.unit].into_iter().find(|own| !unit::is_known(own)) {
-            Some(unknown) => format!("in a unit that is known, such as [cm/s] or [kPa], and not in [{unknown}]"),
-            None => format!("a unit of the same kind as [{to}]"),
+            Some(unknown) => format!("a known unit, such as [cm/s] or [kPa]; [{unknown}] is unknown"),
+            None => format!("a unit that converts to [{to}]"),
         };
-        FieldError::new(&column.name, format!("[{}]", column.unit), &rule, "mend the heading")
+        FieldError::new(&column.name, format!("[{}]", column.unit), &rule, "correct the unit in the heading")
     })?;
     Ok(column.values.iter().map(|value| value * factor).collect())
 }
@@ -190,8 +190,9 @@ impl MeasuredColumns {
         let over = in_unit(&other.over, &self.over.unit)?;
         let is_same = |(own, other): (&f64, &f64)| (own - other).abs() <= 1e-9 * own.abs().max(other.abs());
         if over.len() != self.over.values.len() || !self.over.values.iter().zip(&over).all(is_same) {
-            let rule = format!("those of the first file in every repeat: {:?} [{}]", self.over.values, self.over.unit);
-            let remedy = "interpolate the repeats to the same places, or give them apart";
+            let rule =
+                format!("the values of the first file, {:?} [{}], in every repeat", self.over.values, self.over.unit);
+            let remedy = "interpolate the repeats to these values, or give the files separately";
             return Err(FieldError::new(&self.over.name, format!("{over:?}"), &rule, remedy));
         }
         self.repeats.extend(other.repeats);
@@ -208,7 +209,7 @@ impl MeasuredColumns {
         for (own, values) in self.stated.iter().zip(&stated) {
             if let Some(row) = values.iter().position(|value| *value <= 0.0) {
                 let value = format!("{} in row {}", own.values[row], row + 1);
-                let remedy = "give a standard deviation; without one there is nothing to compare by";
+                let remedy = "give a standard deviation above 0";
                 return Err(FieldError::new(&own.name, value, "positive", remedy));
             }
         }
@@ -221,9 +222,10 @@ impl MeasuredColumns {
         };
         let uncertainty: Vec<f64> = (0..rows).map(uncertainty).collect();
         if uncertainty.contains(&0.0) {
-            let defect = if repeats.len() == 1 { "without uncertainty" } else { "equal in all repeats" };
-            let columns = format!("{}, {}, {defect}", heading(&self.over), heading(first));
-            return Err(FieldError::new("columns", columns, FORM, &format!("add a column, or {REPEATS}")));
+            let defect = if repeats.len() == 1 { "has no uncertainty" } else { "is equal in all repeats" };
+            let defect = format!("{} {defect}", heading(first));
+            let remedy = format!("add a column `uncertainty [{}]`, or give repeats: {REPEATS}", first.unit);
+            return Err(FieldError::finding("columns", defect, &remedy));
         }
         Ok(Measurements {
             path: path.to_owned(),
@@ -266,7 +268,7 @@ fn said(text: &str) -> Result<Said, FieldError> {
         match key.as_str() {
             "limit" => match value.parse::<f64>() {
                 Ok(limit) if limit > 0.0 && limit.is_finite() => said.limit = Some(limit),
-                _ => return wrong("a positive number", "such as 2, in standard uncertainties"),
+                _ => return wrong("a positive number", "give it in standard uncertainties, such as 2"),
             },
             "figure" => said.figure = Some(value),
             "panel" => said.panel = Some(value),

@@ -189,24 +189,27 @@ fn lengths_and_times_are_taken_where_the_axes_are_ratios_of_them() {
 fn unplaceable_curve_is_refused_with_the_available_ones() {
     assert_eq!(
         refused("t [s],back [m],uncertainty [m]\n1,1,1\n"),
-        "mine.csv: `columns` is back [m] over t [s], but must be the axes of one of the case's figures, in names and kinds of units \
-         (front: t [s] and front [m]; profile: u [m/s] and y/h); name the columns as the axes are labelled, with any unit of the same kind"
+        "mine.csv: `columns` is back [m] over t [s], but must be the axes of one of the case's figures \
+         (front: t [s] and front [m]; profile: u [m/s] and y/h); name the columns as the axes are labelled, in any unit that converts to theirs"
     );
     let other_unit = refused("t [s],front [kg],uncertainty [kg]\n1,1,1\n");
     assert!(other_unit.contains("is front [kg] over t [s], but must be the axes"), "{other_unit}");
     assert_eq!(
         refused("t [s],front [m],uncertainty [m]\n5,1,1\n6,1,1\n"),
-        "mine.csv: `t` is 5 … 6, but must be where a curve of front is; they reach over 0 … 1; check the unit and the origin of the abscissa"
+        "mine.csv: `t` is 5 … 6, but must be within the curves of front, which cover 0 … 1; check the unit and the origin of the abscissa"
     );
     assert_eq!(
         refused("# curve: gravel\nt [s],front [m],uncertainty [m]\n0.5,1,1\n"),
-        "mine.csv: `# curve` is \"gravel\", but must be the legend of a curve of front: `sand`; without it all are compared"
+        "mine.csv: `# curve` is \"gravel\", but must be the legend of a curve of front: `sand`; correct it, or leave it out to compare all"
     );
     let mut twice = result();
     let again = Figure { name: "again".to_owned(), ..twice.figures[0].clone() };
     twice.figures.push(again);
     let error = read(TABLE).expect("a table").draw(&mut twice).expect_err("two panels").to_string();
-    assert!(error.contains("but these have them: front; again; write `# figure: NAME`"), "{error}");
+    assert!(
+        error.contains("are the axes of several panels: front; again; name one above the table by `# figure: NAME`"),
+        "{error}"
+    );
     let one = read(&format!("# figure: again\n{TABLE}")).expect("a table");
     one.draw(&mut twice).expect("named");
     assert_eq!(twice.figures[2].panels[0].series.len(), 3);
@@ -217,7 +220,7 @@ fn invalid_measurements_are_refused() {
     for (text, message) in [
         (
             "t [s],front [m]\n1,1\n",
-            "mine.csv: `columns` is t [s], front [m], without uncertainty, but must be abscissa, quantity, uncertainty or repeats, with units; add a column, or columns.front = [\"a [cm]\", \"b [cm]\"]",
+            "mine.csv: `columns`: front [m] has no uncertainty; add a column `uncertainty [m]`, or give repeats: columns.front = [\"a [cm]\", \"b [cm]\"]",
         ),
         (
             "t,front [m],uncertainty [m]\n1,1,1\n",
@@ -225,23 +228,23 @@ fn invalid_measurements_are_refused() {
         ),
         (
             "t [s],front [m],uncertainty [s]\n1,1,1\n",
-            "mine.csv: `uncertainty` is [s], but must be a unit of the same kind as [m]; mend the heading",
+            "mine.csv: `uncertainty` is [s], but must be a unit that converts to [m]; correct the unit in the heading",
         ),
         (
             "t [s],front [m],uncertainty [m]\n1,nan,1\n",
-            "mine.csv: `line 2` is \"nan\" in column front [m], but must be a finite measured value; write one with a decimal point, or drop the row",
+            "mine.csv: `line 2`: \"nan\" in column front [m] is not a measured value; write a finite number with a decimal point, or leave the row out",
         ),
         (
             "t [s],front [m],uncertainty [m]\n1,-9999,1\n",
-            "mine.csv: `line 2` is \"-9999\" in column front [m], but must be a finite measured value; write one with a decimal point, or drop the row",
+            "mine.csv: `line 2`: \"-9999\" in column front [m] is not a measured value; write a finite number with a decimal point, or leave the row out",
         ),
         (
             "t [s],front [m],uncertainty [m]\n1,1,1\n2,1,0\n",
-            "mine.csv: `uncertainty` is 0 in row 2, but must be positive; give a standard deviation; without one there is nothing to compare by",
+            "mine.csv: `uncertainty` is 0 in row 2, but must be positive; give a standard deviation above 0",
         ),
         (
             "# limit: much\nt [s],front [m],uncertainty [m]\n1,1,1\n",
-            "mine.csv: `# limit` is much, but must be a positive number; such as 2, in standard uncertainties",
+            "mine.csv: `# limit` is much, but must be a positive number; give it in standard uncertainties, such as 2",
         ),
         (
             "# limt: 2\nt [s],front [m],uncertainty [m]\n1,1,1\n",
@@ -296,10 +299,10 @@ fn repeats_are_a_mean_with_the_scatter_of_the_mean() {
     let with = read_of(&["t [s],u [m],u [m],sigma [cm]\n1,1,3,100\n"], "", WantedColumns::default()).expect("both");
     assert_eq!(with.uncertainty, [2f64.sqrt()]);
     let equal = read_of(&["t [s],u [m],u [m]\n1,1,1\n"], "", WantedColumns::default()).expect_err("no scatter");
-    assert!(equal.starts_with("0.csv: `columns` is t [s], u [m], equal in all repeats, but must be"), "{equal}");
+    assert!(equal.starts_with("0.csv: `columns`: u [m] is equal in all repeats; add a column"), "{equal}");
     let apart =
         read_of(&["t [s],u [m]\n1,1\n", "t [s],u [m]\n2,1\n"], "", WantedColumns::default()).expect_err("other times");
-    assert!(apart.contains("those of the first file in every repeat"), "{apart}");
+    assert!(apart.contains("but must be the values of the first file"), "{apart}");
 }
 
 #[test]
@@ -322,7 +325,8 @@ fn columns_are_found_by_their_names_or_by_those_that_a_plan_gives() {
             .contains("`columns.front` is \"to [cm]\", but must be a heading of the file with its unit: toe, time")
     );
     assert!(
-        refused("t = \"time [ms]\", x = \"toe [cm]\"").contains("headings with `front` among them; rename one, or")
+        refused("t = \"time [ms]\", x = \"toe [cm]\"")
+            .contains("no column `front` among toe, time, spread; rename one, or")
     );
 }
 

@@ -148,7 +148,7 @@ pub enum GateOwner {
 /// A gate: the limit and the reason why it is where it is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Gate {
-    /// The rule.
+    /// Limit that the value must keep.
     pub limit: Limit,
     /// Reason for the value of the limit, one sentence.
     pub reason: String,
@@ -186,7 +186,7 @@ pub struct Metric {
     pub name: String,
     /// Run or runs that the metric is of; empty if the case has a single run.
     pub variant: Variant,
-    /// The value.
+    /// Value of the metric in its unit.
     pub value: f64,
     /// Its unit, `-` for none, `%` for percent.
     pub unit: String,

@@ -9,11 +9,11 @@ pub enum FileError {
     /// A file cannot be read.
     #[error("{}: cannot be read ({reason}); {remedy}", shown(.file))]
     Unreadable {
-        /// The file.
+        /// File that cannot be used.
         file: PathBuf,
         /// The system's reason.
         reason: String,
-        /// Remedy.
+        /// Instruction to the user.
         remedy: &'static str,
     },
     /// Files cannot be written.
@@ -27,11 +27,11 @@ pub enum FileError {
     /// A file of ours cannot be understood.
     #[error("{}: damaged ({reason}); {remedy}", shown(.file))]
     Damaged {
-        /// The file.
+        /// File that cannot be used.
         file: PathBuf,
         /// Defect of the file.
         reason: String,
-        /// Remedy.
+        /// Instruction to the user.
         remedy: String,
     },
 }
@@ -59,19 +59,19 @@ impl FileError {
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// A folder holds work that may be continued.
-    #[error("{}: holds a {what} already; add --resume to resume it, or name another folder with --out", shown(.folder))]
+    #[error("{}: contains a {what} already; add --resume to resume it, or name another folder with --out", shown(.folder))]
     InUse {
         /// A sweep or a calibration.
         what: &'static str,
-        /// The folder.
+        /// Output folder that cannot be used.
         folder: PathBuf,
     },
     /// A folder holds other work than what is asked for.
-    #[error("{}: holds a {what} {}; name another folder with --out", shown(.folder), if *.by_program { "of another version of bagnold, whose numbers may differ" } else { "of another plan" })]
+    #[error("{}: contains a {what} {}; name another folder with --out", shown(.folder), if *.by_program { "of another version of bagnold, whose numbers may differ" } else { "of another plan" })]
     OtherPlan {
         /// A sweep or a calibration.
         what: &'static str,
-        /// The folder.
+        /// Output folder that cannot be used.
         folder: PathBuf,
         /// Whether the program differs, not the plan.
         by_program: bool,
@@ -79,13 +79,13 @@ pub enum FolderError {
     /// The output folder holds files that are not Bagnold's.
     #[error("output folder {}: not empty and not written by bagnold, so nothing was changed; name an empty or new folder with --out", shown(.folder))]
     Foreign {
-        /// The folder.
+        /// Output folder that cannot be used.
         folder: PathBuf,
     },
     /// Another command is writing the folder.
     #[error("output folder {}: in use by another bagnold command that is running{by}, so nothing was changed; wait until it has ended, or name another folder with --out", shown(.folder))]
     Locked {
-        /// The folder.
+        /// Output folder that cannot be used.
         folder: PathBuf,
         /// Process that holds the lock, if known: " (process 17)".
         by: String,

@@ -33,10 +33,10 @@ pub(crate) enum Refused {
     #[error("cannot be read ({0})")]
     Unreadable(#[from] io::Error),
     /// It does not begin as its kind does.
-    #[error("is no {0}")]
+    #[error("is not a {0}")]
     OtherKind(&'static str),
     /// Another form.
-    #[error("has the form {0}, this program reads the form {1}")]
+    #[error("has format {0}, but this program reads format {1}")]
     Version(u32, u32),
     /// Another key.
     #[error("belongs to another run, or to another version of the program")]

@@ -26,7 +26,7 @@ pub struct MetricsDocument {
     pub tally: BTreeMap<String, usize>,
     /// The runs and how they ended.
     pub runs: Vec<RunSummary>,
-    /// The numbers.
+    /// Metrics of all runs.
     pub metrics: Vec<MetricEntry>,
 }
 
@@ -68,7 +68,7 @@ pub struct MetricEntry {
     pub variant: Variant,
     /// The value; null if it is not a finite number.
     pub value: Option<f64>,
-    /// Its unit.
+    /// Unit of the value and of its limit.
     pub unit: String,
     /// The reference's value in the same unit.
     pub reference: Option<f64>,

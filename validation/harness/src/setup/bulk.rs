@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Bulk {
     /// Solid fraction φ `[-]`: the bulk density is φ times the grain density.
-    #[schemars(transform = between(0.01, 1.0, "grains fill 0.5 to 0.64 of the space; 1 where a law gives the density of the bulk"))]
+    #[schemars(transform = between(0.01, 1.0, "give 0.5 to 0.64 for grains, or 1 for a law with a bulk density"))]
     pub solid_fraction: f64,
     /// Bulk density `[kg/m³]` of a law without a grain density; 0 with one that has it.
     #[schemars(transform = not_negative("give it in kg/m³, such as 1500, or 0 with a law of grains"))]
@@ -40,22 +40,21 @@ impl Bulk {
         if let Some(pore) = law.pore_liquid() {
             if self.solid_fraction != 1.0 {
                 let rule = format!("1 with the law \"{}\"", law.name());
-                let remedy = format!("the law has a `solid_fraction` of its own, {}", pore.solid_fraction);
+                let remedy = format!("leave it out; the law's own `solid_fraction` is {}", pore.solid_fraction);
                 return Err(ParameterError::field("solid_fraction", self.solid_fraction, &rule, &remedy));
             }
             return match self.bulk_density {
                 0.0 => Ok(()),
-                _ => refused("0 with the law", "it follows from the densities of grains and liquid"),
+                _ => refused("0 with the law", "leave it out; it follows from the densities of grains and liquid"),
             };
         }
         match law.grain_density() {
             Some(_) if self.bulk_density != 0.0 => {
-                refused("0 with the law", "it follows from `solid_fraction` and the law's grain density")
+                refused("0 with the law", "leave it out; it follows from `solid_fraction` and the grain density")
             }
-            None if self.bulk_density <= 0.0 => refused(
-                "positive with the law",
-                "the law has no grain density: give that of the bulk in kg/m³, such as 1500",
-            ),
+            None if self.bulk_density <= 0.0 => {
+                refused("positive with the law", "give it in kg/m³, such as 1500, because the law has no grain density")
+            }
             _ => Ok(()),
         }
     }

@@ -14,17 +14,18 @@ pub fn gravity() -> Rule {
 
 /// Rows of particles over a layer.
 pub fn rows() -> Rule {
-    parameter::between(4.0, 1000.0, "20 is quick, 40 is accurate")
+    parameter::between(4.0, 1000.0, "give 20 for a quick run, 40 for an accurate one")
 }
 
 /// A slope angle `[°]`.
 pub fn slope_angle() -> Rule {
-    inside(-90.0, 90.0, "give the angle between the slope and the horizontal in degrees").in_words("inside (−90°, 90°)")
+    inside(-90.0, 90.0, "give the angle between the slope and the horizontal in degrees")
+        .in_words("above −90° and below 90°")
 }
 
 /// Slope i of a bed that drives a flow `[-]`.
 pub fn driving_slope() -> Rule {
-    let remedy = "without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %";
+    let remedy = "give the tangent of the slope, such as 0.03 for 3 %";
     up_to(0.2, remedy).in_words("positive and at most 0.2")
 }
 
@@ -33,12 +34,12 @@ pub fn between(field: &str, value: f64, lower: f64, upper: f64, remedy: &str) ->
     if value >= lower && value <= upper {
         return Ok(());
     }
+    // computed bounds with the fewest digits that are still allowed
+    let shown = |bound: f64| {
+        let [short, long] = [4, 9].map(|digits| format!("{bound:.digits$e}").parse().unwrap_or(bound));
+        if (lower..=upper).contains(&short) { short } else { long }
+    };
     Err(ParameterError::field(field, value, &format!("between {} and {}", shown(lower), shown(upper)), remedy))
-}
-
-/// A computed bound without the digits that rounding left behind.
-fn shown(bound: f64) -> f64 {
-    format!("{bound:.9e}").parse().unwrap_or(bound)
 }
 
 /// A number of things in [least, most].
@@ -52,7 +53,7 @@ pub fn count(field: &str, value: usize, least: usize, most: usize, remedy: &str)
 /// Columns of particles along a period: the kernel with its skin must fit into it.
 pub fn columns(field: &str, value: usize, numerics: &Numerics) -> Result<(), ParameterError> {
     let least = (2.0 * numerics.smoothing_ratio * (1.0 + numerics.verlet_skin)).ceil() as usize;
-    count(field, value, least, 100_000, "the period must hold the reach of the kernel; 12 is quick")
+    count(field, value, least, 100_000, "give 12 for a quick run; the period must be wider than the kernel")
 }
 
 /// The rules between a constitutive law's own parameters.
@@ -73,7 +74,7 @@ pub fn only_mu_i(path: &str, law: &Rheology, remedy: &str) -> Result<MuI, Parame
 
 /// The continuity of the incompressible solver, which a case's own runs choose.
 pub fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), ParameterError> {
-    let remedy = "only the suspensions of `settling` share their pressure";
+    let remedy = "choose it; only the suspensions of `settling` use the other";
     let refused =
         |field: &str, value, rule| Err(ParameterError::field(&format!("{path}.{field}"), value, rule, remedy));
     match (numerics.continuity, numerics.mean_flux) {
@@ -96,7 +97,7 @@ pub fn gate(path: &str, numerics: &Numerics) -> Result<(), ParameterError> {
 /// Columns of fluid particles along the period of a channel: no particle may see another one twice.
 pub fn channel_columns(field: &str, value: usize, numerics: &ProjectionNumerics) -> Result<(), ParameterError> {
     let least = (4.0 * numerics.smoothing_ratio).ceil() as usize;
-    count(field, value, least, 1000, "the period must hold twice the reach of the kernel; 12 is quick")
+    count(field, value, least, 1000, "give 12 for a quick run; the period must be wider than the kernel")
 }
 
 /// Error of a parameter below a path, if there is one.

@@ -23,7 +23,7 @@ pub struct BoundsError {
     pub value: f64,
     /// The rule that it breaks, completing "must be …".
     pub rule: String,
-    /// Remedy.
+    /// Instruction to the user.
     pub remedy: &'static str,
 }
 
@@ -34,7 +34,7 @@ pub struct Bounds {
     pub lower: f64,
     /// Upper bound.
     pub upper: f64,
-    /// Scale.
+    /// Spacing of values between the bounds: linear or logarithmic.
     pub spacing: Spacing,
 }
 

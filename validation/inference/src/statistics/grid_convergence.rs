@@ -19,7 +19,7 @@ use super::student_quantile;
 pub struct Mean {
     /// Particles over the reference length.
     pub resolution: usize,
-    /// Mean.
+    /// Mean of the values at this spacing.
     pub value: f64,
     /// Standard error of the mean; not a number for a single run.
     pub standard_error: f64,

@@ -3,7 +3,7 @@
 /// Extrapolation of a table beyond one of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Extrapolation {
-    /// Nothing.
+    /// No value beyond the data.
     Nothing,
     /// The value of the end.
     EndValue,

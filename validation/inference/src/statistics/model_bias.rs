@@ -50,7 +50,7 @@ pub enum Deviation {
 /// Bias and scatter over the comparisons of one quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModelBias {
-    /// Comparisons.
+    /// Number of comparisons of prediction and measurement.
     pub comparisons: usize,
     /// δ: predictions over true values `[-]`.
     pub bias: f64,

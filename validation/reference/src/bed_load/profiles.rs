@@ -38,7 +38,7 @@ pub struct BedLoadProfiles {
 }
 
 impl MeasuredBedLoad {
-    /// Both.
+    /// Both sources of measured or simulated profiles.
     pub const ALL: [Self; 2] = [Self::GrainSimulation, Self::SheetFlow];
 
     /// Its name in results.

@@ -8,9 +8,9 @@ pub enum LayerError {
     Parameter {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value of the field.
         value: f64,
-        /// The range.
+        /// Allowed range, completing "must be …".
         rule: &'static str,
     },
     /// A time step of the 1-D solver did not converge.
@@ -53,7 +53,7 @@ pub enum LayerError {
         slope: f64,
         /// Slope from which on it slides `[-]`.
         limit: f64,
-        /// Remedy.
+        /// Instruction to the user.
         remedy: String,
     },
     /// Time steps did not lead to a steady state.

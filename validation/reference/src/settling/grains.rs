@@ -70,7 +70,7 @@ pub struct SettlingGrains {
     #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub fluid_density: f64,
     /// Kinematic viscosity ν `[m²/s]` of the fluid.
-    #[schemars(transform = positive("give it in m²/s, 1e-6 for water"))]
+    #[schemars(transform = positive("give it in m²/s, such as 1e-6 for water"))]
     pub kinematic_viscosity: f64,
     /// Gravity g `[m/s²]`.
     #[schemars(transform = positive("give it in m/s², such as 9.81"))]

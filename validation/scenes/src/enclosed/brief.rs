@@ -50,8 +50,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             let finer = wall.facet_wall().facets.len() as f64 * self.spacing.powi(2) / wall.measure();
             if finer > FINEST {
                 caution(&format!(
-                    "wall `{}` has {finer:.0} triangles per square of the spacing (limit {FINEST:.0}): finer ones change nothing \
-                     but the time and memory of the start; simplify the mesh",
+                    "wall `{}` has {finer:.0} triangles per square of the spacing (limit {FINEST:.0}): such fine triangles only \
+                     cost time and memory at the start; simplify the mesh",
                     wall.name()
                 ));
             }
@@ -113,7 +113,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
 fn too_steep(name: &str, friction: f64) -> String {
     format!(
         "scene `{name}`: a static friction of {friction} is above {STEEPEST}: such a law is ill-posed at small inertial numbers, and layers \
-         flow 5 % too fast or more (0.8, 40 rows); lower it, or judge by two spacings"
+         flow at least 5 % too fast (friction 0.8, 40 rows); lower it, or compare runs of two spacings"
     )
 }
 

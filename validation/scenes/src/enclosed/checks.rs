@@ -22,7 +22,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let gauges = self.gauges.iter().map(SceneGauge::name).collect();
         names::check(&self.name, [("walls", walls), ("inlets", inlets), ("gauges", gauges)])?;
         if self.bodies.is_empty() && self.inlets.is_empty() {
-            return Err(ParameterError::field("bodies", "[]", "at least one body", S::ADD_A_BODY));
+            return Err(ParameterError::field("bodies", "no body", "", S::ADD_A_BODY));
         }
         rules::material("material", &self.material)?;
         self.bulk.check(&self.material).map_err(|error| error.within("bulk"))?;
@@ -79,7 +79,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             return Err(problem.into());
         }
         if self.numerics.contact == Contact::None && !(self.walls.is_empty() && self.inlets.is_empty()) {
-            let remedy = format!("contact keeps particles in front of walls of {}; leave it as it is", S::Wall::FACETS);
+            let remedy = format!("leave it out: contact keeps particles in front of walls of {}", S::Wall::FACETS);
             return Err(ParameterError::field("numerics.contact", "none", "\"half-spacing\" with walls", &remedy));
         }
         Ok(())
@@ -126,7 +126,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             let above = upper.coordinate().filter(|plane| all(1.0, *plane)).map(|plane| (high, plane));
             if let Some((side, plane)) = below.or(above) {
                 let defect =
-                    format!("`{}` beyond the side `{side}` at {plane} m, where it measures nothing", gauge.name());
+                    format!("`{}` lies beyond the side `{side}` at {plane} m, outside the domain", gauge.name());
                 let remedy = "move it between the sides of the domain";
                 return Err(ParameterError::field(&format!("gauges[{k}]"), defect, "", remedy));
             }
@@ -145,17 +145,18 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         }
         if let Some(given) = given {
             if wall.is_some() {
-                return refused(&given, "absent beside `normal_to`", "one of the two says it");
+                let defect = "given together with `normal_to`";
+                return Err(ParameterError::field("direction", defect, "", "leave one of the two out"));
             }
             if !(given.norm() > 0.0 && given.norm().is_finite()) {
-                return refused(&given, "a direction of some length", "leave it out to measure along gravity");
+                return refused(&given, "a vector longer than 0", "leave it out to measure along gravity");
             }
         }
         let direction = self.direction_of(gauge);
         let is_depth = matches!(gauge.measure(&direction), Measurand::Depth(_));
         if is_depth && !Periods::of(&self.sides.axes()).are_crossed_by(&direction) {
-            let remedy = "along periodic sides the material has no end: give another direction, or `normal_to` a wall";
-            return refused(&direction, "one that crosses the layer", remedy);
+            let remedy = "give a direction that is not along periodic sides, or `normal_to` a wall";
+            return refused(&direction, "across the layer", remedy);
         }
         Ok(())
     }
@@ -169,24 +170,22 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         };
         let refused = |rule: &str, remedy: &str| Err(ParameterError::field("preparation", value, rule, remedy));
         if self.bodies.is_empty() && self.from.is_none() {
-            return refused(
-                "\"none\" for a scene without bodies",
-                "what an inlet brings moves: leave the preparation out",
-            );
+            return refused("\"none\" for a scene without bodies", "leave it out: inflow cannot be prepared");
         }
         if self.preparation == BodyPreparation::Settled {
             return Ok(());
         }
         if self.material.strength_at_rest(0.0).is_none() {
             let rule = format!("\"none\" or \"settled\" for the law \"{}\"", self.material.name());
-            return refused(&rule, "it has no stress at rest: leave it out, or give a law such as \"mu-i\"");
+            return refused(&rule, "leave it out, or give a law with a yield stress, such as \"mu-i\"");
         }
         let (across, along) = self.pulls();
         if across.norm() == 0.0 {
-            return refused("\"none\" where no gravity acts across periodic sides", "no weight presses: leave it out");
+            let rule = "\"none\" where gravity acts only along periodic sides and presses no material together";
+            return refused(rule, "leave it out");
         }
         if self.lateral_pressure_ratio != 1.0 {
-            let remedy = "a liquid at rest has 1: leave one of the two out, or give \"settled\"";
+            let remedy = "leave one of the two out, or give \"settled\"";
             return Err(ParameterError::field(
                 "lateral_pressure_ratio",
                 self.lateral_pressure_ratio,
@@ -198,7 +197,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             && let Some(wall) = self.smooth_floor()
         {
             let rule = format!("\"none\" or \"settled\" on the smooth slope `{}`", wall.name());
-            return refused(&rule, "a smooth wall bears no shear stress: leave it out, or make the wall rough");
+            return refused(&rule, "leave it out, or make the wall rough: a smooth wall carries no shear stress");
         }
         Ok(())
     }
@@ -221,38 +220,38 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let law = self.material.name();
         let Some(cohesion) = self.material.strength_at_rest(0.0) else {
             let rule = format!("1 for the law \"{law}\"");
-            let remedy = "leave it out, or give a law with a stress at rest, such as \"mu-i\"";
+            let remedy = "leave it out, or give a law with a yield stress, such as \"mu-i\"";
             return Err(ParameterError::field(field, ratio, &rule, remedy));
         };
         let weight = self.bulk.density(&self.material) * self.pull().norm() * self.height();
         if weight == 0.0 {
-            return Err(ParameterError::field(field, ratio, "1 without gravity", "leave it out: no weight presses"));
+            return Err(ParameterError::field(field, ratio, "1 without gravity", "leave it out"));
         }
         let friction = (self.material.strength_at_rest(weight).unwrap_or(cohesion) - cohesion) / weight;
         let (active, passive) = rankine_ratios::<D>(friction, cohesion / weight);
         // rounded outwards, so that the bounds that a message shows are allowed
         let (active, passive) = ((1e4 * active).floor() / 1e4, (1e4 * passive).ceil() / 1e4);
-        let remedy = format!("beyond Rankine's active and passive ratios \"{law}\" yields; 1 − sin φ is usual at rest");
+        let remedy = format!("give a value such as 1 − sin φ; outside Rankine's limits \"{law}\" yields");
         rules::between(field, ratio, active, passive, &remedy)
     }
 
     /// Times and lengths that fit to each other.
     fn check_scales(&self) -> Result<(), ParameterError> {
         names::check_times(self.interval, self.duration)?;
-        rules::count("pictures", self.pictures, 1, 100, "three or four are usual")?;
+        rules::count("pictures", self.pictures, 1, 100, "give 3 or 4")?;
         if vector(&self.gravity).norm() == 0.0 && self.start_pressure() <= 0.0 {
             let none = shown(&[0.0; D]);
             let level = "0, ".repeat(D - 1);
-            let remedy = format!(
-                "the stiffness is measured by it: give it in m/s², such as [{level}-9.81], or a `pressure` to start with, or a `load` on a wall"
-            );
-            return Err(ParameterError::field("gravity", &none, &format!("unlike {none}"), &remedy));
+            let remedy =
+                format!("give it in m/s², such as [{level}-9.81], or an initial `pressure`, or a `load` on a wall");
+            let defect = format!("{none} m/s² and no load: the stiffness has no scale");
+            return Err(ParameterError::field("gravity", defect, "", &remedy));
         }
         let (lower, upper) = self.extent();
         let most = (upper - lower).max() / 4.0;
         if self.spacing > most {
-            let rule = format!("at most a quarter of the scene's size, {most}");
-            return Err(ParameterError::field("spacing", self.spacing, &rule, "make the particles smaller"));
+            let rule = format!("at most a quarter of the scene's size, {most} m");
+            return Err(ParameterError::field("spacing", format!("{} m", self.spacing), &rule, "reduce it"));
         }
         Ok(())
     }
@@ -277,8 +276,9 @@ pub(super) fn check_table<const N: usize>(
     if let Some((&time, value)) = start.filter(|(time, value)| **time != 0.0 || **value != Vector::<N>::zeros()) {
         let row = |time: f64, value: &Vector<N>| shown(std::iter::once(&time).chain(value));
         let (value, rest) = (row(time, value), row(0.0, &Vector::zeros()));
-        let remedy = format!("the {given_by} are where the wall is at the start");
-        return refused(Some(0), value, &rest, &remedy);
+        let rule = format!("{rest}, where the wall is at the start");
+        let remedy = format!("begin with that row: `{given_by}` give the position at the start");
+        return refused(Some(0), value, &rule, &remedy);
     }
     if times.len() == 1 {
         return refused(None, "one row".to_owned(), "two rows or more", "leave it out for a wall at rest");
@@ -287,7 +287,7 @@ pub(super) fn check_table<const N: usize>(
         let before = times[row - 1];
         let (value, rule) = (format!("at {} s", times[row]), format!("later than the row above it, at {before} s"));
         let is_jump = times[row] == before;
-        let remedy = if is_jump { "give the jump a time" } else { "sort the rows by their times" };
+        let remedy = if is_jump { "spread the jump over a short time" } else { "sort the rows by their times" };
         return refused(Some(row), value, &rule, remedy);
     }
     Ok(())
@@ -307,8 +307,7 @@ mod tests {
         let checked = |rows: &[[f64; 4]]| check_motion(&motion(rows), "corners").map_err(|error| error.to_string());
         assert_eq!(checked(&[]), Ok(()));
         assert_eq!(checked(&[[0.0; 4], [1.0, 0.0, 0.0, 0.5]]), Ok(()));
-        let early =
-            "`motion[0]` is (0, 0, 0.5, 0), but must be (0, 0, 0, 0); the corners are where the wall is at the start";
+        let early = "`motion[0]` is (0, 0, 0.5, 0), but must be (0, 0, 0, 0), time 0 without displacement; begin with that row: `corners` give the position at the start";
         assert_eq!(checked(&[[0.0, 0.0, 0.5, 0.0]]), Err(early.to_owned()));
         let late = checked(&[[0.5, 0.0, 0.0, 0.0]]).expect_err("starts late");
         assert!(late.starts_with("`motion[0]` is (0.5, 0, 0, 0)"), "{late}");
@@ -318,7 +317,7 @@ mod tests {
             |time: f64| checked(&[[0.0; 4], [1.0, 0.5, 0.0, 0.0], [time, 0.0, 0.0, 0.5]]).expect_err("no later row");
         assert!(
             last(1.0).starts_with("`motion[2]` is at 1 s, but must be later than")
-                && last(1.0).ends_with("give the jump a time")
+                && last(1.0).ends_with("spread the jump over a short time")
         );
         assert!(last(0.5).ends_with("sort the rows by their times"), "{}", last(0.5));
     }

@@ -54,7 +54,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
                 // what fills the period may be drawn wider
                 let is_whole = lower[axis] <= left && upper[axis] >= right;
                 let what = format!(
-                    "{} m of `bodies[{body}]` are beyond a periodic side and are left out",
+                    "{} m of `bodies[{body}]` lie beyond a periodic side and are left out",
                     four_digits(beyond)
                 );
                 (!is_whole && beyond > told).then(|| what + "; end it there, and add a body at the other side")
@@ -70,16 +70,16 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let grains = self.material.grain_diameter().map(|diameter| size / diameter);
         let fall = (2.0 * self.height() / gravity).sqrt();
         let many = grains.filter(|grains| *grains > MOST_GRAINS).map(|grains| {
-            format!("{} grains of `material.grain_diameter` fit across its {size} m", four_digits(grains))
+            format!("{} grains of `material.grain_diameter` fit across the scene's {size} m", four_digits(grains))
         });
         let short = (size > LARGE && gravity > 0.0 && self.duration < fall).then(|| {
-            format!("`duration` is {} s, but a fall over its height takes {} s", self.duration, four_digits(fall))
+            format!("`duration` is {} s, but a fall over the height takes {} s", self.duration, four_digits(fall))
         });
-        let own = many.as_ref().map_or("", |_| "give your own `grain_diameter`, or ");
+        let own = many.as_ref().map_or("raise `duration`, or ", |_| "correct `grain_diameter`, or ");
         let found: Vec<String> = many.into_iter().chain(short).collect();
         (!found.is_empty()).then(|| {
             format!(
-                "{}; {own}its lengths are probably in millimetres: give all in metres, such as `spacing = {}`",
+                "{}; {own}give all lengths in metres if they are in millimetres, such as `spacing = {}`",
                 found.join(", and "),
                 four_digits(self.spacing * 1e-3)
             )
@@ -94,11 +94,11 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         (*near > 0.0 && *far > FARTHEST * near).then(|| {
             let metres = far * 1e-3;
             let remedy = if metres > FARTHEST * near {
-                "subtract the corner of the map from all coordinates".to_owned()
+                "subtract a common offset from all coordinates".to_owned()
             } else {
-                format!("in millimetres it is {} m: give it in metres", four_digits(metres))
+                format!("give it in metres, {} if it is in millimetres", four_digits(metres))
             };
-            format!("`{part}` reaches {} m, but all else {} m; {remedy}", four_digits(*far), four_digits(*near))
+            format!("`{part}` reaches {} m, but all other parts {} m; {remedy}", four_digits(*far), four_digits(*near))
         })
     }
 
@@ -149,7 +149,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             };
             (width > size).then(|| {
                 format!(
-                    "gauge `{}`: `{field}` is {width} m, more than the scene's {} m; in millimetres it is {} m: give it in metres",
+                    "gauge `{}`: `{field}` is {width} m, more than the scene's {} m; give it in metres, {} if it is in millimetres",
                     gauge.name(),
                     four_digits(size),
                     four_digits(width * 1e-3)
@@ -186,10 +186,10 @@ mod tests {
     #[test]
     fn a_geometry_in_millimetres_is_doubted() {
         let both = doubt([100.0, 150.0, 1.5], 0.7e-3, 0.5).expect("doubted");
-        assert!(both.contains("214286 grains") && both.contains("a fall over its height takes 5.530 s"), "{both}");
+        assert!(both.contains("214286 grains") && both.contains("a fall over the height takes 5.530 s"), "{both}");
         assert!(
             both.ends_with(
-                "give your own `grain_diameter`, or its lengths are probably in millimetres: give all in metres, such as `spacing = 0.0015`"
+                "correct `grain_diameter`, or give all lengths in metres if they are in millimetres, such as `spacing = 0.0015`"
             ),
             "{both}"
         );
@@ -224,7 +224,7 @@ mod tests {
                 scene.bodies = vec![PlaneBody::Box { lower: (lower, 0.0), upper: (upper, 0.1), velocity: (0.0, 0.0) }];
             })
         };
-        assert!(doubt(-0.1, 0.1).contains("0.1 m of `bodies[0]` are beyond a periodic side and are left out"));
+        assert!(doubt(-0.1, 0.1).contains("0.1 m of `bodies[0]` lie beyond a periodic side and are left out"));
         assert!(doubt(0.05, 0.25).contains("0.05 m of `bodies[0]`"));
         assert_eq!([doubt(0.0, 0.2), doubt(-0.1, 0.3), doubt(0.05, 0.15)].concat(), "");
     }
@@ -252,10 +252,10 @@ mod tests {
     fn one_length_in_millimetres_is_named() {
         assert_eq!(doubts(|_| ()), "");
         let far = doubts(|scene| scene.sides.right = DomainSide::Open(900.0));
-        let all = "reaches 900 m, but all else 1 m; in millimetres it is 0.9 m: give it in metres";
+        let all = "reaches 900 m, but all other parts 1 m; give it in metres, 0.9 if it is in millimetres";
         assert!(far.ends_with(&format!("`sides.right` {all}")), "{far}");
         let map = doubts(|scene| scene.sides.right = DomainSide::Open(4.5e5));
-        assert!(map.ends_with("all else 1 m; subtract the corner of the map from all coordinates"), "{map}");
+        assert!(map.ends_with("all other parts 1 m; subtract a common offset from all coordinates"), "{map}");
         let body = |scene: &mut SceneFlow<Plane, 2>| {
             scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (200.0, 200.0), velocity: (0.0, 0.0) }];
         };

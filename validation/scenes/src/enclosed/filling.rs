@@ -155,7 +155,7 @@ fn misfits<const D: usize>(bodies: &[impl SceneBody<D>], groups: &[LatticeGroup<
         // a body without a particle is refused elsewhere
         if share > 0.0 && (share - 1.0).abs() > MISFIT {
             remarks.push(format!(
-                "`bodies[{number}]`: its particles have {:.1} % of its mass; put plane faces on multiples of the spacing {spacing} m, or reduce it",
+                "`bodies[{number}]`: the particles have {:.1} % of the body's mass; put plane faces on multiples of the spacing, {spacing} m, or reduce it",
                 100.0 * share
             ));
         }
@@ -207,7 +207,7 @@ mod tests {
         assert_eq!(misfits(&[new(0.03)]), Vec::<String>::new());
         // 12.5 rows: the middle of the last lies on the edge and is not held
         let remarks = misfits(&[new(0.03), new(0.03125)]);
-        assert!(remarks.len() == 1 && remarks[0].starts_with("`bodies[1]`: its particles have 96.0 %"), "{remarks:?}");
+        assert!(remarks.len() == 1 && remarks[0].starts_with("`bodies[1]`: the particles have 96.0 %"), "{remarks:?}");
         // a box has rows of its own
         let cuboid = PlaneBody::Box { lower: (0.0, 0.0), upper: (0.1, 0.03125), velocity };
         assert_eq!(misfits(&[cuboid]), Vec::<String>::new());

@@ -75,7 +75,7 @@ pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     /// Gravity along each axis `[m/s²]`.
     pub gravity: S::Place,
     /// Particle spacing `[m]`.
-    #[schemars(transform = positive("give it in metres: a tenth to a twentieth of the smallest thing that matters"))]
+    #[schemars(transform = positive("give it in metres: a tenth to a twentieth of the smallest length that matters"))]
     pub spacing: f64,
     /// Simulated time `[s]`.
     #[schemars(transform = positive("give it in seconds"))]
@@ -89,26 +89,26 @@ pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     /// move nor vertical ones below a floor add to it. Where it is left out, it is 50, and sound is also five times as fast as bodies, inflow and
     /// walls move towards or along each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = between(20.0, 1e6, "50 for grains; 200 make sound seven times as fast as a fall"))]
+    #[schemars(transform = between(20.0, 1e6, "give 50 for grains, or 200, with which sound is seven times as fast as a fall"))]
     pub stiffness: Option<f64>,
     /// Treatment of a negative pressure.
     pub tension: Tension,
     /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.3, "0.05 breaks the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.3, "give 0.05 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Preparation before the clock starts.
     pub preparation: BodyPreparation,
     /// Root mean square of the speed at which settled bodies count as being at rest, over √(g H) with the scene's height H `[-]`.
-    #[schemars(transform = between(1e-6, 0.1, "1e-4 is 0.1 mm/s in a scene of 0.1 m"))]
+    #[schemars(transform = between(1e-6, 0.1, "give 1e-4, which is 0.1 mm/s in a scene 0.1 m high"))]
     pub rest_speed: f64,
     /// Largest share of a body that may stand behind walls, where it is left out `[-]`.
-    #[schemars(transform = between(0.0, 1.0, "0.1 allows for what corners and curved walls cut off"))]
+    #[schemars(transform = between(0.0, 1.0, "give 0.1 to allow for what corners and curved walls cut off"))]
     pub cut_at_most: f64,
     /// Constitutive law of the material.
     pub material: Rheology,
-    /// Its density.
+    /// Bulk density or solid fraction of the material.
     pub bulk: Bulk,
     /// Sides of the domain.
     pub sides: S::Sides,
@@ -117,7 +117,7 @@ pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     /// Pressure at the start, beside that of the weight of the material above `[Pa]`. What walls enclose on all sides keeps it; a free
     /// surface lets it go.
     #[serde(default, skip_serializing_if = "is_none")]
-    #[schemars(transform = at_least(0.0, "a pressure pushes: leave it out for material under its weight alone"))]
+    #[schemars(transform = at_least(0.0, "give 0 or more, or leave it out for material under its weight alone"))]
     pub pressure: f64,
     /// Ratio K_0 of horizontal to vertical stress at the start, of the weight of the material above `[-]`; vertical is along gravity. 1 is
     /// hydrostatic, 1 − sin φ is Jaky's (1944) for deposited grains. A ratio unlike 1 requires a law that carries its stress along.
@@ -127,7 +127,7 @@ pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     /// Share of the weight of the material above that its pore liquid bears at the start `[-]`: 0 is drained, 1 a mixture whose grains have just
     /// lost their contacts.
     #[serde(default, skip_serializing_if = "is_none")]
-    #[schemars(transform = between(0.0, 1.0, "0 for grains that have come to rest, 1 for liquefied ones"))]
+    #[schemars(transform = between(0.0, 1.0, "give 0 for grains at rest, 1 for liquefied ones"))]
     pub pore_pressure_ratio: f64,
     /// Walls; what is not held by one falls.
     pub walls: Vec<S::Wall>,
@@ -136,14 +136,14 @@ pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     /// Two plates beside a scene in the plane, which rub on its material; none where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side_walls: Option<SideWalls>,
-    /// Gauges.
+    /// Gauges, whose values are written over time.
     pub gauges: Vec<S::Gauge>,
     /// Measured series that gauges are compared with.
     pub measured: Vec<MeasuredSeries>,
     /// State that the scene starts from in place of its bodies; none where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<SceneStart>,
-    /// Numerics.
+    /// Numerical scheme of the weakly compressible model.
     pub numerics: Numerics,
 }
 
@@ -158,7 +158,7 @@ pub struct SceneStart {
     /// Bulk modulus of the state `[Pa]`, which the scene keeps: its densities stand for other pressures under another one. That of the
     /// scene where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = positive("`--from` takes it from the state"))]
+    #[schemars(transform = positive("leave it out: `--from` reads it from the state"))]
     pub bulk_modulus: Option<f64>,
 }
 

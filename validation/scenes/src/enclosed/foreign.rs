@@ -37,7 +37,7 @@ pub(crate) fn observe<S: Dimension<D>, const D: usize>(
     }
     if front.is_empty() {
         let remedy = "name the column of the file that holds it";
-        return Err(FieldError::new("series.front", "absent", "given beside a time", remedy));
+        return Err(FieldError::finding("series.front", "missing", remedy));
     }
     let gauge = gauge_of(run)?;
     let samples: Vec<(f64, f64)> = time.iter().copied().zip(front.iter().copied()).collect();
@@ -49,7 +49,7 @@ pub(crate) fn observe<S: Dimension<D>, const D: usize>(
     let end = time.last().map_or(last_row, |given| given.clamp(last_row, run.duration));
     let mut measured = Vec::new();
     if points().next().is_some() {
-        reaches(&samples, (first, last), "what was measured")?;
+        reaches(&samples, (first, last), "the measurements")?;
         measured.push(GAUGE_ERROR.name);
     } else if at(end).is_none() {
         let end = run.duration;
@@ -64,7 +64,7 @@ pub(crate) fn observe<S: Dimension<D>, const D: usize>(
         }
         None => {
             let name = &run.name;
-            let why = if last > end { "what was measured lasts longer" } else { "it ends before" };
+            let why = if last > end { "the measurements last longer" } else { "it ends before" };
             tracing::warn!("scene {name}: the given front is not compared at the scene's end, {end} s: {why}");
             samples.clone()
         }
@@ -80,19 +80,17 @@ fn gauge_of<S: Dimension<D>, const D: usize>(run: &SceneFlow<S, D>) -> Result<&s
     let gauges = run.gauges.iter().zip(run.measures());
     let fronts: Vec<&str> =
         gauges.filter(|(_, measure)| matches!(measure, Measurand::Front(_))).map(|(gauge, _)| gauge.name()).collect();
-    let refused = |value: String, rule: &str, remedy: &str| Err(FieldError::new("series.front", value, rule, remedy));
+    let refused = |defect: String, remedy: &str| Err(FieldError::finding("series.front", defect, remedy));
     match fronts[..] {
         [only] => Ok(only),
         [] => refused(
-            format!("given for scene {}, which measures no front", run.name),
-            "of a scene with a gauge of kind \"front\"",
-            "add [[gauges]] with kind = \"front\", name, from, to and thickness to the scene; and [[measured]] with the gauge's \
-             name, source, points and limit for a gate",
+            format!("scene `{}` has no gauge of kind \"front\"", run.name),
+            "add one under [[gauges]] with name, from, to and thickness; for a gate, also [[measured]] with gauge, source, points \
+             and limit",
         ),
         _ => refused(
-            format!("given for scene {}, which has the gauges {}", run.name, fronts.join(", ")),
-            "of a scene with one gauge of kind \"front\"",
-            "keep in the scene the gauge whose front is given, or give numbers",
+            format!("scene `{}` has several gauges of kind \"front\": {}", run.name, fronts.join(", ")),
+            "keep only the gauge that this front belongs to, or give numbers",
         ),
     }
 }
@@ -116,10 +114,9 @@ fn reaches(samples: &[(f64, f64)], (from, to): (f64, f64), what: &str) -> Result
     match ends {
         Some((first, last)) if first > from || last < to => {
             let needed = if from < to { format!("from {from} to {to} s") } else { format!("to {to} s") };
-            let rule = format!("as long as {what}: {needed}");
-            let remedy =
-                "give the front over that time, or leave the series out and give what the code has by [run.numbers]";
-            Err(FieldError::new("series.time", format!("from {first} to {last} s"), &rule, remedy))
+            let defect = format!("{first} to {last} s does not cover {what}: {needed}");
+            let remedy = "give the front over that time, or leave the series out and give [run.numbers]";
+            Err(FieldError::finding("series.time", defect, remedy))
         }
         _ => Ok(()),
     }
@@ -175,11 +172,11 @@ mod tests {
         let short = judged(&scene(6.0), &given(&[0.0, 0.15], 1.0)).expect_err("too short");
         assert_eq!(
             short,
-            "`series.time` is from 0 to 0.15 s, but must be as long as what was measured: from 0.1 to 0.2 s; give the front over \
-             that time, or leave the series out and give what the code has by [run.numbers]"
+            "`series.time`: 0 to 0.15 s does not cover the measurements: from 0.1 to 0.2 s; give the front over \
+             that time, or leave the series out and give [run.numbers]"
         );
         let late = judged(&scene(6.0), &given(&[0.15, 1.0], 1.0)).expect_err("begins too late");
-        assert!(late.contains("from 0.15 to 1 s, but must be as long as what was measured"), "{late}");
+        assert!(late.contains("0.15 to 1 s does not cover the measurements"), "{late}");
         // less than an interval of 5 ms before the end counts as the end, as in the scene's own series
         let metrics = judged(&scene(6.0), &given(&[0.0, 0.597], 1.0)).expect("as long as the scene");
         assert!(metrics.iter().any(|metric| metric.name == "front" && (metric.value - 0.597).abs() < 1e-12));
@@ -188,7 +185,7 @@ mod tests {
         assert!(!metrics.is_empty() && metrics.iter().all(|metric| metric.name == "gauge_error"), "{metrics:?}");
         let tier = quick();
         let nothing = judged(&tier, &given(&[0.0, 0.25], 1.0)).expect_err("nothing to compare with");
-        assert!(nothing.contains("as long as the scene's end, where the front is compared: to 0.6 s"), "{nothing}");
+        assert!(nothing.contains("does not cover the scene's end, where the front is compared: to 0.6 s"), "{nothing}");
     }
 
     #[test]
@@ -197,14 +194,14 @@ mod tests {
         let none = PlaneFlow { gauges: own.gauges[1..].to_vec(), measured: Vec::new(), ..own.clone() };
         let message = judged(&none, &given(&[0.0, 1.0], 1.0)).expect_err("no gauge");
         assert!(
-            message.starts_with("`series.front` is given for scene step, which measures no front, but must be"),
+            message.starts_with("`series.front`: scene `step` has no gauge of kind \"front\"; add one"),
             "{message}"
         );
-        assert!(message.contains("add [[gauges]] with kind = \"front\""), "{message}");
+        assert!(message.contains("under [[gauges]] with name, from, to and thickness"), "{message}");
         let mut twice = own.clone();
         twice.gauges.push(own.gauges[0].clone());
         let message = judged(&twice, &given(&[0.0, 1.0], 1.0)).expect_err("two gauges");
-        assert!(message.contains("of a scene with one gauge of kind \"front\""), "{message}");
+        assert!(message.contains("has several gauges of kind \"front\": "), "{message}");
         assert!(observe(&own, &ExternalData::default()).expect("nothing").is_none());
         let no_front = ExternalData { series: [("time".to_owned(), vec![0.0])].into(), ..ExternalData::default() };
         assert!(observe(&own, &no_front).expect_err("no front").to_string().contains("`series.front` is absent"));

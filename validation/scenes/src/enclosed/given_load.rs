@@ -14,11 +14,11 @@ pub struct GivenLoad<P> {
     pub direction: P,
     /// Pressure on the area of the wall across the direction and between the sides of the domain `[Pa]`; unless `force` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = positive("give it in Pa; turn `direction` for a wall that is pulled"))]
+    #[schemars(transform = positive("give it in Pa; reverse `direction` for a pulled wall"))]
     pub pressure: Option<f64>,
     /// Force `[N]`, in 2-D per metre of depth `[N/m]`; unless `pressure` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = between(1e-12, 1e12, "give it in N, in 2-D in N/m; turn `direction` for a wall that is pulled"))]
+    #[schemars(transform = between(1e-12, 1e12, "give it in N, in 2-D in N/m; reverse `direction` for a pulled wall"))]
     pub force: Option<f64>,
     /// Mass of the wall `[kg]`, in 2-D per metre of depth `[kg/m]`; half of that of the material below it where it is left out. Its weight is
     /// not added to the load.
@@ -27,7 +27,7 @@ pub struct GivenLoad<P> {
     pub mass: Option<f64>,
     /// Rate of a damper of the wall `[1/s]`, which takes nothing at rest; twice the sound speed over the height of the material where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = at_least(0.0, "0 for a wall that swings freely"))]
+    #[schemars(transform = at_least(0.0, "give 0 for an undamped wall"))]
     pub damping: Option<f64>,
 }
 

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub enum TableEnds {
     /// The rate of that row.
     Hold,
-    /// None.
+    /// No inflow outside the table.
     Zero,
     /// An error: the table must begin at the time 0 and last as long as the run.
     Error,
@@ -51,23 +51,23 @@ impl GivenRate<'_> {
             Err(ParameterError::field(field, value, rule, remedy))
         };
         if !self.table.is_empty() && self.rates.is_empty() {
-            let rule = "read with the case file that names it";
-            return refused("table", format!("\"{}\"", self.table), rule, "name it in a case file, or give `rates`");
+            let defect = format!("\"{}\" has not been read", self.table);
+            return refused("table", defect, "", "name it in a case file, or give `rates`");
         }
         let (Some(first), Some(last)) = (self.rates.first(), self.rates.last()) else {
             if self.ends.is_some() {
-                return refused("ends", "given".to_owned(), "absent without a table", "leave it out");
+                return refused("ends", "given without a table of rates".to_owned(), "", "leave it out");
             }
             if self.rate == 0.0 {
                 let remedy = "give `rate`, `rates` (rows of time and rate) or `table` (a CSV file)";
                 return refused("rate", "missing, or 0".to_owned(), "", remedy);
             }
             return FeedRate::constant(self.rate).map_err(|_| {
-                ParameterError::field("rate", self.rate, "positive", "what flows out leaves by an open side")
+                ParameterError::field("rate", self.rate, "positive", "for outflow, open a side of the domain")
             });
         };
         if self.rate != 0.0 {
-            return refused("rate", self.rate.to_string(), "absent beside a table", "give one of the two");
+            return refused("rate", "given together with a table".to_owned(), "", "leave one of the two out");
         }
         let table = FeedRate::table(self.rates).map_err(|mut problem| {
             problem.field = format!("{}{}", self.field(), problem.field);
@@ -76,11 +76,11 @@ impl GivenRate<'_> {
         let remedy = "add a row, or give `ends = \"hold\"` or `ends = \"zero\"`";
         if first.0 > 0.0 && !matches!(self.ends, Some(TableEnds::Hold | TableEnds::Zero)) {
             let (field, value) = (format!("{}[0]", self.field()), format!("({}, {})", first.0, first.1));
-            return refused(&field, value, "a row for the time 0", remedy);
+            return refused(&field, value, "a row at 0 s", remedy);
         }
         if last.0 < duration && self.ends == Some(TableEnds::Error) {
-            let rule = format!("as long as the run, {duration} s");
-            return refused(self.field(), format!("a table until {} s", last.0), &rule, remedy);
+            let defect = format!("the table ends at {} s, before the run at {duration} s", last.0);
+            return refused(self.field(), defect, "", remedy);
         }
         Ok(if self.ends == Some(TableEnds::Zero) { table.closed_beyond() } else { table })
     }

@@ -57,10 +57,9 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let rate = given.checked(self.duration)?;
         let least = NARROWEST * self.spacing;
         let narrow = |edge: f64| {
-            let rule = format!("{NARROWEST} spacings or more along each edge, {least} m");
-            let value = format!("an opening of {edge:.4} m");
+            let defect = format!("opening of {edge:.4} m, narrower than {NARROWEST} spacings, {least:.4} m");
             let remedy = "make the opening wider or the spacing smaller";
-            ParameterError::field(S::Inlet::GIVEN_BY, value, &rule, remedy)
+            ParameterError::field(S::Inlet::GIVEN_BY, defect, "", remedy)
         };
         inlet.check()?;
         if let Some(edge) = inlet.edges().into_iter().find(|edge| !(*edge >= least * (1.0 - 1e-9) && edge.is_finite()))
@@ -72,26 +71,28 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         if let Some(problem) = feed.problem(self.spacing, sound_speed) {
             let most = LARGEST_MACH_NUMBER * sound_speed;
             let speed = feed.largest_speed();
-            let rule =
-                format!("at most {:.4}, {LARGEST_MACH_NUMBER} of the sound speed", feed.rate.largest() * most / speed);
+            let largest = feed.rate.largest() * most / speed;
+            let rule = format!(
+                "at most {largest:.4}, because inflow at {speed:.4} m/s exceeds {LARGEST_MACH_NUMBER} of the sound speed"
+            );
             let stiffness = (self.stiffness() * (speed / most).powi(2)).ceil();
             let stiffer =
                 if stiffness <= STIFFEST { format!(", or raise `stiffness` to {stiffness}") } else { String::new() };
-            let remedy = format!("{speed:.4} m/s is too fast: widen the opening{stiffer}");
+            let remedy = format!("widen the opening{stiffer}");
             let of_table = if given.field() == "table" { " (SI)" } else { "" };
             return Err(ParameterError::field(given.field(), format!("{}{of_table}", problem.value), &rule, &remedy));
         }
         let first = feed.direction() * (0.5 * self.spacing);
         if let Some(cell) = feed.cells.iter().find(|cell| !self.sides.hold(&(*cell + first))) {
-            let remedy = "material would leave at once: move the opening or the side";
-            let defect = format!("its part at {} is beyond a side of the domain", place(cell));
+            let remedy = "move the opening or the side";
+            let defect = format!("part of the opening, at {}, is beyond a side of the domain", place(cell));
             return Err(ParameterError::field(S::Inlet::GIVEN_BY, defect, "", remedy));
         }
         let rows = wall_rows(self.numerics.smoothing_ratio);
         let last = feed.direction() * (-self.spacing * rows as f64);
         if let Some(cell) = feed.cells.iter().find(|cell| !self.sides.continue_to(&(*cell + last))) {
             let defect = format!(
-                "its part at {} has less than {rows} spacings behind it to a periodic side or plane of symmetry",
+                "part of the opening, at {}, has less than {rows} spacings behind it to a periodic side or plane of symmetry",
                 place(cell)
             );
             return Err(ParameterError::field(S::Inlet::GIVEN_BY, defect, "", "move the opening away from the side"));
@@ -110,7 +111,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             });
             if let Some((cell, nearest)) = closing {
                 let side = if nearest.distance < 0.0 { "behind" } else { "too near to" };
-                let defect = format!("its part at {} is {side} `{}`", place(cell), names[nearest.wall]);
+                let defect = format!("part of the opening, at {}, is {side} `{}`", place(cell), names[nearest.wall]);
                 let remedy = format!("{}, or end the opening at the wall", S::Inlet::TURN);
                 return Err(ParameterError::field(&format!("inlets[{k}]"), defect, "", &remedy));
             }

@@ -17,6 +17,6 @@ pub struct MeasuredSeries {
     pub points: Vec<(f64, f64)>,
     /// Largest root mean square of the relative error `[%]`; 0 where it is only observed.
     #[serde(default)]
-    #[schemars(transform = between(0.0, 100.0, "10 is a tenth"))]
+    #[schemars(transform = between(0.0, 100.0, "give it in per cent, such as 10"))]
     pub limit: f64,
 }

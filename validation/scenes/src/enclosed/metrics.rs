@@ -155,7 +155,7 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                         "along a bed, draw the line on its surface; elsewhere lengthen it or raise `thickness`";
                     caution_about(&subject, &format!("{subject} is at the end of its line throughout: {remedy}"));
                 }
-                let why = || "nowhere on its line stands as much as `thickness` at the end".to_owned();
+                let why = || "at the end, the material is thinner than `thickness` everywhere on the line".to_owned();
                 FRONT
                     .of(&own, last)
                     .remarked(absent.then(why))
@@ -303,7 +303,7 @@ fn numerical_viscosity<S: Dimension<D>, const D: usize>(
         caution_about(
             &subject,
             &format!(
-                "{subject}: {times} times the liquid's own, and {lost} % of the energy that went through: reduce `spacing`"
+                "{subject}: {times} times the liquid's own, and {lost} % of the energy converted; reduce `spacing`"
             ),
         );
     }

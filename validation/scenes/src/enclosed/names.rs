@@ -44,11 +44,11 @@ pub(super) fn check(own: &str, lists: [(&str, Vec<&str>); 3]) -> Result<(), Para
         let kind = field.split('[').next().unwrap_or_default().replace("inlets", "walls");
         let refused = |rule, remedy| Err(ParameterError::field(&field, format!("\"{name}\""), rule, remedy));
         if !fit(name) {
-            return refused("letters, digits and hyphens", "files are named after it");
+            return refused("made of letters, digits and hyphens only", "rename it: files are named after it");
         }
         check_name(&field, name)?;
         if !seen.insert((kind, name)) {
-            return refused("unique", "name each once");
+            return refused("unique", "give each another name");
         }
     }
     Ok(())
@@ -64,8 +64,8 @@ pub(super) fn check_wall<'a>(
     if names.contains(&wall) {
         return Ok(());
     }
-    let all = if names.is_empty() { "there is none".to_owned() } else { names.join(", ") };
-    let rule = format!("the name of a wall: {all}");
+    let all = if names.is_empty() { "it has none".to_owned() } else { names.join(", ") };
+    let rule = format!("the name of a wall of the scene ({all})");
     Err(ParameterError::field(field, format!("\"{wall}\""), &rule, "correct the name"))
 }
 
@@ -84,7 +84,7 @@ pub(super) fn check_measured(
         if let Some(row) = measured.points.iter().position(|&(time, value)| !(time >= 0.0 && value > 0.0)) {
             let (time, value) = measured.points[row];
             let name = field(&format!("points[{row}]"));
-            let rule = "a time that is not negative and a positive value";
+            let rule = "a time of 0 or later and a positive value";
             return Err(ParameterError::field(&name, format!("({time}, {value})"), rule, "correct the row"));
         }
     }
@@ -93,15 +93,15 @@ pub(super) fn check_measured(
 
 /// Rows of the series that are neither too many nor none.
 pub(super) fn check_times(interval: f64, duration: f64) -> Result<(), ParameterError> {
-    let remedy = "a hundredth of the duration is usual";
+    let remedy = "give about a hundredth of the duration";
     let rule = if interval > duration {
-        format!("at most the duration, {duration}")
+        format!("at most the duration, {duration} s")
     } else if interval * MOST_SAMPLES < duration {
-        format!("at least {}, a {MOST_SAMPLES}th of the duration", duration / MOST_SAMPLES)
+        format!("at least {} s, a {MOST_SAMPLES}th of the duration", duration / MOST_SAMPLES)
     } else {
         return Ok(());
     };
-    Err(ParameterError::field("interval", interval, &rule, remedy))
+    Err(ParameterError::field("interval", format!("{interval} s"), &rule, remedy))
 }
 
 #[cfg(test)]

@@ -183,7 +183,7 @@ where
         let begun = made.flow.position.len();
         if begun == 0 && self.inlets.is_empty() {
             let defect = format!(
-                "no room for a particle in front of the walls (a body needs two spacings, {})",
+                "no room for a particle in front of the walls (a body needs two spacings, {} m)",
                 2.0 * self.spacing
             );
             let remedy = "widen a body, reduce the spacing, or reverse a wall";
@@ -347,8 +347,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let Some((wall, place)) = first_behind(&enclosure.walls, places, self.spacing) else { return Ok(()) };
         let place: Vec<String> = place.iter().map(|coordinate| four_digits(*coordinate)).collect();
         let (name, place) = (self.walls[wall].name(), place.join(", "));
-        let defect = format!("material right behind `{name}`, at ({place}) m, where another wall meets it");
-        let remedy = "draw it as a closed wall, a spacing thick or more";
+        let defect = format!("material directly behind `{name}`, at ({place}) m, where it meets another wall");
+        let remedy = "draw it as a closed wall, at least one spacing thick";
         Err(ParameterError::field(&format!("walls[{wall}]"), defect, "", remedy))
     }
 

@@ -20,7 +20,7 @@ pub(super) struct GaugeSeries<'a, const D: usize> {
     pub(super) gauge: &'a str,
     /// Measurand of the gauge.
     pub(super) measure: Measurand<'a, D>,
-    /// Its columns.
+    /// Columns of the gauge in tables of results.
     pub(super) columns: Vec<GaugeColumn>,
     /// Their values, shape `[columns][samples]`.
     pub(super) values: &'a [Vec<f64>],

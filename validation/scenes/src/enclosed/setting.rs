@@ -60,7 +60,7 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// Its motion from the start, without that by its load.
     fn motion(&self) -> Motion<D>;
 
-    /// Its load.
+    /// Load that moves the wall, if there is one.
     fn load(&self) -> Option<GivenLoad<Vector<D>>>;
 
     /// Number of triangles, which take time before the run; a polyline has none.
@@ -117,7 +117,7 @@ pub trait SceneInlet<const D: usize>: PlainData {
 
 /// Measurement during the run of a scene.
 pub trait SceneGauge<const D: usize>: PlainData {
-    /// Its name.
+    /// Name of the gauge or wall in messages and files.
     fn name(&self) -> &str;
 
     /// Direction of a thickness, unless along gravity: a vector of any length, or the normal of a named wall.

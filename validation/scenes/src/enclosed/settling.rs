@@ -90,9 +90,9 @@ where
                 return Ok((scene, elapsed));
             }
             if let Err(divergence) = simulation.step() {
-                let value = format!("settled, and diverges meanwhile ({divergence})");
-                let remedy = "leave the preparation out to see what goes wrong at the start";
-                return Err(refused_for(&value, "\"none\" for this start", remedy));
+                let defect = format!("the simulation diverges while the bodies settle ({divergence})");
+                let remedy = "leave it out to see how the start goes wrong";
+                return Err(refused_for(&defect, "", remedy));
             }
             let speed = rms_speed(&simulation);
             let creeps = speed <= rest.speed && simulation.time() > LONGEST_SWING * rest.crossing;
@@ -182,10 +182,10 @@ fn check_held<const D: usize>(
         return Ok(());
     };
     let parts: Vec<String> = starts[index].iter().map(|part| format!("{part:.4}")).collect();
-    let moves = format!("the particle from ({}) m moves by more than a spacing, {} m", parts.join(", "), scene.spacing);
+    let moves = format!("the particle from ({}) m moves more than a spacing ({} m)", parts.join(", "), scene.spacing);
     if rest.speed.is_infinite() {
         let remedy = "support the bodies with walls, or give \"settled\"";
-        return Err(refused_for(&format!("{moves}, as a liquid"), "", remedy));
+        return Err(refused_for(&format!("{moves} while the material settles as a liquid"), "", remedy));
     }
     let (across, along) = periods.split(&scene.gravity);
     let mean = ways.iter().sum::<Vector<D>>() / ways.len() as f64;
@@ -193,23 +193,23 @@ fn check_held<const D: usize>(
         let pressure = rest.fall.powi(2) * scene.equation_of_state.reference_density;
         let held = scene.rheology.strength_at_rest(pressure).map_or(0.0, |strength| strength / pressure);
         let slope = along.norm() / across.norm();
-        let value = format!("{moves}: periodic slope {slope:.3}, static friction {held:.3}");
-        return Err(refused_for(&value, "", "give \"stressed\" for grains, or remove it"));
+        let value = format!("{moves}; slope tangent {slope:.3}, static friction {held:.3}");
+        return Err(refused_for(&value, "", "give \"stressed\" for grains, or remove `preparation`"));
     }
     if mean.norm() < STIRRED * scene.spacing {
-        let value = format!("{moves}, stirred in place at {speed:.1e} m/s");
+        let value = format!("{moves}, and the material keeps mixing at {speed:.1e} m/s");
         return Err(refused_for(&value, "", &raise(speed, rest)));
     }
     let is_liquid = matches!(scene.rheology, Rheology::Newtonian(_));
     Err(refused_for(&moves, "", if is_liquid { SUPPORT_OF_LIQUID } else { SUPPORT }))
 }
 
-const SUPPORT_OF_LIQUID: &str = "close open sides, or remove `preparation`: liquids beside inclined walls turn over";
+const SUPPORT_OF_LIQUID: &str = "close open sides, or remove `preparation`: inclined walls keep liquid circulating";
 const SUPPORT: &str = "support the bodies with walls, keep slopes below the static friction, or remove `preparation`";
 
 fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
     let value = format!(
-        "the bodies still move at {speed:.1e} m/s after {:.2} s (rest is {:.1e} m/s, `rest_speed` √(g H))",
+        "the bodies still move at {speed:.1e} m/s after {:.2} s (limit {:.1e} m/s, `rest_speed` √(g H))",
         LONGEST * rest.crossing,
         rest.speed
     );

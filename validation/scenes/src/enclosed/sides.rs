@@ -135,8 +135,8 @@ pub trait SceneSides<const D: usize>: PlainData + Default {
             if let (Some(below), Some(above)) = (lower.coordinate(), upper.coordinate())
                 && below >= above
             {
-                let rule = format!("greater than that of `{low}`, {below}");
-                return Err(ParameterError::field(&high, above, &rule, "exchange the two"));
+                let rule = format!("greater than that of `{low}`, {below} m");
+                return Err(ParameterError::field(&high, format!("{above} m"), &rule, "exchange the two"));
             }
         }
         Ok(())

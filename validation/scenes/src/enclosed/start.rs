@@ -21,13 +21,13 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let state = StoredState::read(Path::new(file)).map_err(refused)?;
         if state.digest != *sha256 {
             let rule = format!("{}, the digest of {file}", state.digest);
-            let remedy = "the file holds another state: find the first";
+            let remedy = "find the original file, or give this digest";
             return Err(ParameterError::field("from.sha256", sha256, &rule, remedy));
         }
         match state.difference(&self.likeness()).map_err(refused)? {
             Some([field, value, rule]) => {
                 let rule = format!("{rule}, as in the state");
-                Err(ParameterError::field(&field, value, &rule, "keep it, or start from another state"))
+                Err(ParameterError::field(&field, value, &rule, "restore it, or start from another state"))
             }
             None => Ok(Some(state)),
         }

@@ -57,37 +57,37 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         };
         let direction = given.direction;
         if !(direction.norm() > 0.0 && direction.norm().is_finite()) {
-            return refused("direction", shown(&direction), "a direction of some length", "point it into the material");
+            return refused("direction", shown(&direction), "a vector longer than 0", "point it into the material");
         }
         match (given.pressure, given.force) {
-            (Some(_), Some(force)) => {
-                return refused("force", force.to_string(), "absent beside `pressure`", "give one of the two");
+            (Some(_), Some(_)) => {
+                return refused("force", "given together with `pressure`".to_owned(), "", "leave one of the two out");
             }
             (None, None) => {
-                return refused("pressure", "absent".to_owned(), "given where `force` is not", "give one of the two");
+                return refused("pressure", "missing, as is `force`".to_owned(), "", "give one of the two");
             }
             _ => {}
         }
         if self.area_across(wall, &given) <= 0.0 {
             let value = format!("{}, along the wall `{}`", shown(&direction), wall.name());
-            return refused("direction", value, "one across the wall", "point it into the material");
+            return refused("direction", value, "across the wall", "point it into the material");
         }
         if self.bodies.is_empty() && (given.mass.is_none() || given.damping.is_none()) {
             return refused(
                 "mass",
-                "absent".to_owned(),
-                "given without bodies, as `damping`",
-                "no material is below it",
+                "this or `damping` is missing".to_owned(),
+                "",
+                "give both in a scene without bodies, where no material sets their defaults",
             );
         }
         let along = |way: &&Vector<D>| way.dot(&direction).abs() > ROUNDING * way.norm() * direction.norm();
         if let Some(way) = wall.motion().displacements.iter().find(along) {
-            let value = format!("{}, and `motion` goes along it by {}", shown(&direction), shown(way));
+            let defect = format!("{} is not perpendicular to the displacement {}", shown(&direction), shown(way));
             return refused(
                 "direction",
-                value,
-                "across the ways of `motion`",
-                "the load moves it along: leave that out",
+                defect,
+                "",
+                "leave displacements along the load out of `motion`, because the load moves the wall there",
             );
         }
         Ok(())

@@ -101,7 +101,7 @@ impl setting::SceneBody<2> for PlaneBody {
                 refused("upper", shown(&[upper.0, upper.1]), rule, "give the upper right corner")
             }
             Self::Polygon { points, .. } if points.len() < 3 => {
-                refused("points", format!("{} of them", points.len()), "three corners or more", "add the missing ones")
+                refused("points", format!("{} corners", points.len()), "three corners or more", "add the missing ones")
             }
             Self::Polygon { points, .. } => check_crossing(points, true),
             _ => Ok(()),

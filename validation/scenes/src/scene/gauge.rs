@@ -53,7 +53,7 @@ pub enum PlaneGauge {
         at: PlaneVector,
         /// Diameter of the circle whose particles count, in spacings `[-]`.
         #[serde(default = "setting::probe_width")]
-        #[schemars(transform = at_least(2.0, "5 has twenty particles in the plane"))]
+        #[schemars(transform = at_least(2.0, "give 5, within which lie about 20 particles"))]
         spacings: f64,
     },
     /// Force of the flow on a wall, along x and y.

@@ -109,9 +109,8 @@ impl setting::SceneWall<2> for WallLine {
     fn check(&self, spacing: f64, _: f64) -> Result<(), ParameterError> {
         let (least, word) = if self.closed { (3, "three") } else { (2, "two") };
         if self.points.len() < least {
-            let rule = format!("{word} points or more, farther apart than the spacing");
-            let value = format!("{} points", self.points.len());
-            return Err(ParameterError::field("points", value, &rule, "give the wall's corners in their order"));
+            let defect = format!("{} given, but a wall needs {word} or more", self.points.len());
+            return Err(ParameterError::field("points", defect, "", "give the wall's corners in their order"));
         }
         let length = self.measure();
         if length <= spacing {

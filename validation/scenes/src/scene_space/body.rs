@@ -105,7 +105,7 @@ impl setting::SceneBody<3> for SpaceBody {
                 Err(ParameterError::field("upper", shown(upper), rule, "give the corner that is opposite to `lower`"))
             }
             Self::Cylinder { from, to, .. } if from == to => {
-                Err(ParameterError::field("to", shown(to), "unlike `from`", "give the middles of both ends"))
+                Err(ParameterError::field("to", shown(to), "different from `from`", "give the centres of both ends"))
             }
             _ => Ok(()),
         }

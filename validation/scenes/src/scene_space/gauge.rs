@@ -56,7 +56,7 @@ pub enum SpaceGauge {
         at: SpaceVector,
         /// Diameter of the circle whose particles count, in spacings `[-]`.
         #[serde(default = "setting::probe_width")]
-        #[schemars(transform = at_least(2.0, "5 has twenty particles in the plane"))]
+        #[schemars(transform = at_least(2.0, "give 5, within which lie about 20 particles in 2-D"))]
         spacings: f64,
     },
     /// Force of the flow on a wall, along x, y and z.
@@ -159,8 +159,8 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 if one.cross(&other).norm() > spacing * spacing {
                     return Ok(());
                 }
-                let (value, rule) = (format!("{}, …", shown(&corner)), "three corners that are not in line");
-                Err(ParameterError::field("corners", value, rule, "give a corner and the two next to it"))
+                let defect = format!("the corners from {} on are in line", shown(&corner));
+                Err(ParameterError::field("corners", defect, "", "give a corner and the two next to it"))
             }
             _ => Ok(()),
         }

@@ -24,7 +24,7 @@ pub struct SpaceInlet {
     pub corners: (SpaceVector, SpaceVector, SpaceVector),
     /// Mass per time, where it is one for all times `[kg/s]`; 0 beside `rates` or `table`.
     #[serde(default)]
-    #[schemars(transform = not_negative("what flows out leaves by an open side"))]
+    #[schemars(transform = not_negative("give 0 or more; for outflow, open a side of the domain"))]
     pub rate: f64,
     /// Mass per time as a table: time `[s]` and rate `[kg/s]`, linear between the rows; two rows of one time are a jump.
     #[serde(default)]

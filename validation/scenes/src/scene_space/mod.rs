@@ -23,7 +23,7 @@ pub type SpaceVector = (f64, f64, f64);
 /// The flow of the case.
 pub type SpaceFlow = SceneFlow<Space, 3>;
 
-/// Space.
+/// Setting of three-dimensional scenes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Space;
 

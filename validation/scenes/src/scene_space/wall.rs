@@ -33,7 +33,7 @@ pub struct SpaceWall {
     pub unit: String,
     /// Factor of the size of the mesh `[-]`, beside its unit.
     #[serde(default = "unscaled")]
-    #[schemars(transform = above(0.0, "give 1 for the size of the file"))]
+    #[schemars(transform = above(0.0, "give 1 to keep the size in the file"))]
     pub scale: f64,
     /// Angles `[°]` by which the mesh is turned about x, then y, then z, about the origin.
     #[serde(default)]
@@ -173,12 +173,11 @@ impl setting::SceneWall<3> for SpaceWall {
             Err(ParameterError::field(field, value, rule, remedy))
         };
         if !self.mesh.is_empty() && self.triangles.is_empty() && self.packed.is_empty() {
-            let rule = "read with the case file that names it";
-            return refused("mesh", format!("\"{}\"", self.mesh), rule, "name it in a case file, or give `triangles`");
+            let defect = format!("\"{}\" has not been read", self.mesh);
+            return refused("mesh", defect, "", "name it in a case file, or give `triangles`");
         }
         if let Some(text) = self.packed.damage() {
-            let rule = "triangles as the program writes them, whole";
-            return refused("packed", text, rule, "leave it out, so that the `mesh` is read again");
+            return refused("packed", format!("{text} is damaged"), "", "leave it out, so that `mesh` is read again");
         }
         let (lower, upper) = self.bounds();
         let size = (upper - lower).max();
@@ -188,7 +187,7 @@ impl setting::SceneWall<3> for SpaceWall {
             let units = [("cm", 0.01), ("mm", 0.001), ("in", 0.0254)];
             let near = |(_, length): &(&str, f64)| (bodies / 20.0..=20.0 * bodies).contains(&(size * length));
             let unit = units.iter().rfind(|unit| near(unit)).map_or("mm", |(name, _)| name);
-            let remedy = format!("the file is probably in another unit: set `unit = \"{unit}\"`, or `scale`");
+            let remedy = format!("set `unit = \"{unit}\"` or `scale`: the file is probably in another unit");
             return refused("mesh", format!("{} m wide", four_digits(size)), &rule, &remedy);
         }
         for (k, (a, b, c, d)) in self.quads.iter().enumerate() {
@@ -197,7 +196,7 @@ impl setting::SceneWall<3> for SpaceWall {
             let height = across.dot(&(b - a)).abs();
             if height > 1e-6 * across.norm() * (c - a).norm() {
                 let field = format!("quads[{k}]");
-                return refused(&field, "not plane".to_owned(), "plane", "give two `triangles` instead");
+                return refused(&field, "not planar".to_owned(), "", "give two `triangles` instead");
             }
             if (b - a).cross(&(c - a)).dot(&(c - a).cross(&(d - a))) < 0.0 {
                 let remedy = "give the corners in their order around it, or two `triangles` instead";
@@ -206,9 +205,9 @@ impl setting::SceneWall<3> for SpaceWall {
         }
         for (k, (lower, upper)) in self.boxes.iter().enumerate() {
             if !shapes::has_inside::<3>(&vector(lower), &vector(upper)) {
-                let value = shown(&vector::<3>(upper));
-                let rule = "a lower corner, and then one that is greater along x, y and z";
-                return refused(&format!("boxes[{k}]"), value, rule, "exchange what is not");
+                let upper = shown(&vector::<3>(upper));
+                let defect = format!("upper corner {upper} m not above the lower one along x, y and z");
+                return refused(&format!("boxes[{k}]"), defect, "", "give the smaller coordinates first");
             }
         }
         if let Some(turn) = &self.turn {
@@ -223,13 +222,12 @@ impl setting::SceneWall<3> for SpaceWall {
         if let Some((at, count)) = largest_fan(&triangles).filter(|(_, count)| *count > LARGEST_FAN) {
             let value = format!("a fan of {count} triangles around {} m", shown(&at));
             let rule = format!("a surface with at most {LARGEST_FAN} triangles around a corner");
-            return refused("mesh", value, &rule, "divide it evenly: no particle feels edges far below the spacing");
+            return refused("mesh", value, &rule, "remesh it evenly: edges far below the spacing have no effect");
         }
         let area = self.measure();
         if !(area > spacing * spacing && area.is_finite()) {
-            let value = format!("{} triangles", triangles.len());
-            let rule = "a surface larger than the square of the spacing";
-            return refused("quads", value, rule, "give `mesh`, `triangles`, `quads` or `boxes`, in metres");
+            let defect = format!("the wall's {} triangles are smaller than a square of the spacing", triangles.len());
+            return refused("quads", defect, "", "give `mesh`, `triangles`, `quads` or `boxes` in metres");
         }
         Ok(())
     }
@@ -337,7 +335,7 @@ mod tests {
         let unread = SpaceWall { mesh: "a.stl".to_owned(), ..SpaceWall::of_quads("unread", Vec::new()) };
         assert_eq!(
             unread.check(0.1, 1.0).expect_err("unread").to_string(),
-            "`mesh` is \"a.stl\", but must be read with the case file that names it; name it in a case file, or give `triangles`"
+            "`mesh`: \"a.stl\" has not been read; name it in a case file, or give `triangles`"
         );
         let at = |k: u32| (libm::cos(1e-4 * f64::from(k)), libm::sin(1e-4 * f64::from(k)), 0.0);
         let fan = |count| SpaceWall {
@@ -348,7 +346,7 @@ mod tests {
         assert_eq!(
             fan(10_001).check(0.1, 1.0).expect_err("a fan").to_string(),
             "`mesh` is a fan of 10001 triangles around (0, 0, 0) m, but must be a surface with at most 10000 triangles around a corner; \
-             divide it evenly: no particle feels edges far below the spacing"
+             remesh it evenly: edges far below the spacing have no effect"
         );
         assert!(SpaceWall::of_quads("none", Vec::new()).check(0.1, 1.0).is_err());
         let inverse =

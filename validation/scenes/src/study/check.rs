@@ -21,14 +21,14 @@ pub(super) enum CheckedQuantity {
     Order {
         /// The other check.
         of: String,
-        /// The parameter.
+        /// Name of the varied parameter.
         in_parameter: String,
     },
     /// The difference of another check between two variants, over its value in the second.
     Difference {
         /// The other check.
         of: String,
-        /// The variants.
+        /// The two variants that are compared.
         between: (Variant, Variant),
     },
 }
@@ -77,11 +77,11 @@ impl StudyCheck {
             own => own,
         };
         if limit.is_some() && confidence == Confidence::Unverified {
-            let remedy = "observe it without a limit, or say where the reference can be checked";
-            return Err(FieldError::new("confidence", "unverified", "more than that beside a limit", remedy));
+            let remedy = "leave the limit out, or name a source by which the reference can be checked";
+            return Err(FieldError::new("confidence", "unverified", "higher for a check with a limit", remedy));
         }
         if text.reference.is_some() && text.source.is_none() {
-            let remedy = "say where the number comes from: instrument, author and year, or equation";
+            let remedy = "name the source of the number: instrument, author and year, or equation";
             return Err(FieldError::new("source", "missing", "given beside `reference`", remedy));
         }
         Ok(Self {
@@ -153,7 +153,7 @@ fn check_metric_name(name: &str) -> Result<(), FieldError> {
         return Ok(());
     }
     let rule = "a word of lower-case letters, digits and `_`, at most 60 of them";
-    Err(FieldError::new("name", format!("\"{name}\""), rule, "such as \"front_position\""))
+    Err(FieldError::new("name", format!("\"{name}\""), rule, "choose such as \"front_position\""))
 }
 
 /// Quantity of a check: exactly one of the ways.
@@ -164,7 +164,7 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
     let [way] = given[..] else {
         let value = if given.is_empty() { "none of them".to_owned() } else { given.join(" and ") };
         let rule = "exactly one of `metric`, `value`, `compare`, `order_of` and `difference_of`";
-        let remedy = "such as value = \"last\" with table and column, or compare = \"measured.csv\"";
+        let remedy = "write such as value = \"last\" with table and column, or compare = \"measured.csv\"";
         return Err(FieldError::new("value", value, rule, remedy));
     };
     let belongs = [
@@ -214,12 +214,12 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
                 return Ok(CheckedQuantity::Value(column, reduction));
             }
             if text.reference.is_some() || text.standard_uncertainty.is_some() {
-                let remedy = "the file has values and uncertainties of its own";
+                let remedy = "leave it out: the file has its own values and uncertainties";
                 return Err(FieldError::new("reference", "given", "absent beside `compare`", remedy));
             }
             let files = text.compare.clone().unwrap_or_else(|| MeasuredFiles::Repeats(Vec::new()));
             let measured = measured(&files, &column, beside)
-                .map_err(|error| FieldError::finding("compare", error, "or name another file"))?;
+                .map_err(|error| FieldError::finding("compare", error, "correct the file, or name another one"))?;
             Ok(CheckedQuantity::Distance(column, Box::new(measured), text.distance.unwrap_or(Distance::Residual)))
         }
     }
@@ -235,20 +235,20 @@ fn measured(files: &MeasuredFiles, column: &ColumnWindow, beside: &Path) -> Resu
 
 fn column(text: &CheckText) -> Result<ColumnWindow, FieldError> {
     let needed = |field: &str, value: &Option<String>| {
-        let remedy = "run the case once: it writes tables/, whose files and headings are meant";
+        let remedy = "run the case once: the files and headings in its folder tables/ are possible values";
         value.clone().ok_or_else(|| FieldError::new(field, "missing", "given beside `value` or `compare`", remedy))
     };
     let window = (text.from.unwrap_or(f64::NEG_INFINITY), text.to.unwrap_or(f64::INFINITY));
     if window.0.is_nan() || window.1.is_nan() || window.0 > window.1 {
         let value = format!("{} … {}", window.0, window.1);
-        return Err(FieldError::new("from", value, "at most `to`", "exchange them"));
+        return Err(FieldError::new("from", value, "at most `to`", "exchange the two"));
     }
     let column = needed("column", &text.column)?;
     let others = [("plus", text.plus.clone(), 1.0), ("minus", text.minus.clone(), -1.0)];
     for (field, other, _) in &others {
         if let Some(other) = other.as_ref().filter(|other| unit_of(other) != unit_of(&column)) {
             let rule = format!("a column in the unit of `column`, {}", unit_of(&column));
-            return Err(FieldError::new(field, format!("\"{other}\""), &rule, "name another"));
+            return Err(FieldError::new(field, format!("\"{other}\""), &rule, "name another column"));
         }
     }
     Ok(ColumnWindow { table: needed("table", &text.table)?, column, others, over: text.over.clone(), window })
@@ -296,15 +296,14 @@ fn limit(text: &CheckText) -> Result<(Option<Limit>, String), FieldError> {
                 && text.compare.is_some()
                 && bound < 0.0
             {
-                let (rule, remedy) =
-                    ("0 or more", "a distance from measurements is never negative: give the largest that is good");
+                let (rule, remedy) = ("0 or more", "give the largest acceptable distance from the measurements");
                 return Err(FieldError::new(field, value, rule, remedy));
             }
             if !is_sound {
-                return Err(FieldError::new(field, value, "finite, the smaller bound first", "mend the numbers"));
+                return Err(FieldError::new(field, value, "finite, the smaller bound first", "correct the numbers"));
             }
             let missing = || {
-                let remedy = "say in a sentence why the limit stands where it does: readers of the report will ask";
+                let remedy = "explain in a sentence why the limit has this value";
                 FieldError::new("reason", "missing", "given beside a limit", remedy)
             };
             let reason = text.reason.clone().filter(|reason| !reason.trim().is_empty()).ok_or_else(missing)?;

@@ -14,7 +14,7 @@ use toml::Table;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ControlText {
-    /// Its name.
+    /// Name of the negative control.
     pub(super) name: String,
     /// Wrong values by the dotted paths of parameters.
     #[schemars(with = "std::collections::BTreeMap<String, serde_json::Value>")]
@@ -48,7 +48,7 @@ pub(super) fn check(controls: &[ControlText], judged: &[&str]) -> Result<(), Fie
         }
         if control.set.is_empty() {
             let remedy = "name a parameter and its wrong value, such as { \"material.viscosity\" = 2.0 }";
-            return Err(FieldError::new(&field("set"), "empty", "at least one change", remedy));
+            return Err(FieldError::finding(&field("set"), "no changes", remedy));
         }
         let unknown = control.rejects.iter().find(|own| !judged.contains(&own.as_str()));
         if control.rejects.is_empty() || unknown.is_some() {
@@ -95,8 +95,8 @@ impl Study {
                 self.refuse_varied(setting).map_err(of_control)?;
                 if let Some(given) = settings.iter().find(|given| twice_given(setting, given).is_some()) {
                     let control = format!("control `{}` in {}", control.name, self.file.display());
-                    let rule = format!("of another parameter: {control} sets `{path}` to a wrong value");
-                    let remedy = "edit a copy of the study, and remove the control there";
+                    let rule = format!("of another parameter, because {control} sets `{path}` to a wrong value");
+                    let remedy = "remove that control in a copy of the study";
                     return Err(FieldError::new("--set", given, &rule, remedy).into());
                 }
             }

@@ -10,12 +10,12 @@ impl Study {
         let judged: Vec<&StudyCheck> = self.checks.iter().filter(|check| check.limit.is_some()).collect();
         if judged.is_empty() {
             return vec![
-                "no check has a limit, so that nothing is judged; give `at_most`, `at_least` or `within`".to_owned(),
+                "no check has a limit, so there is no verdict; give `at_most`, `at_least` or `within`".to_owned(),
             ];
         }
         let mut doubts: Vec<String> = judged.iter().filter_map(|check| of_limit(check)).collect();
         if self.text.controls.is_empty() {
-            let remedy = "add a [[controls]] that a check rejects";
+            let remedy = "add a negative control under [[controls]] that a check rejects";
             doubts.push(format!("no control shows that a check can fail; {remedy}"));
         }
         doubts
@@ -33,11 +33,11 @@ fn of_limit(check: &StudyCheck) -> Option<String> {
         |what: &str| format!("check `{}`: the limit {} {what}", check.name, limit.in_words(|bound| bound.to_string()));
     if !limit.holds(reference) {
         return Some(words(&format!(
-            "excludes its own reference {reference}, so that a right value fails; mend one of them"
+            "excludes its own reference {reference}, so that a correct value fails; correct one of the two"
         )));
     }
     let is_wide = reference != 0.0 && farthest > reference.abs();
-    is_wide.then(|| words(&format!("reaches farther from the reference {reference} than zero does; narrow it")))
+    is_wide.then(|| words(&format!("allows an error above 100 % of the reference {reference}; narrow it")))
 }
 
 #[cfg(test)]
@@ -59,8 +59,8 @@ mod tests {
             (String::new(), "", "no check has a limit"),
             (limited("within = [1.0, 3.0]"), "", "no control shows"),
             (limited("at_most = 1.5"), control, "excludes its own reference 2"),
-            (limited("within = [-1e9, 1e9]"), control, "than zero does"),
-            (limited("at_most = 4.5"), control, "than zero does"),
+            (limited("within = [-1e9, 1e9]"), control, "above 100 % of the reference"),
+            (limited("at_most = 4.5"), control, "above 100 % of the reference"),
         ] {
             let told = doubts(&check, rest);
             assert!(told.len() == 1 && told[0].contains(expected), "{told:?}");

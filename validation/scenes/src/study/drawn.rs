@@ -58,7 +58,7 @@ pub(super) struct NamesOfStudy<'study> {
     pub(super) variants: Vec<&'study str>,
     /// The parameters that take several numbers, as variants call them.
     pub(super) varied_numbers: Vec<&'study str>,
-    /// The checks.
+    /// Names of the checks whose values can be drawn.
     pub(super) checks: Vec<&'study str>,
 }
 
@@ -67,7 +67,7 @@ impl FigureText {
     pub(super) fn check(&self, study: &NamesOfStudy) -> Result<(), FieldError> {
         if !is_file_name(&self.name) {
             let rule = "a name that a file can have: letters, digits, `-` and `_`";
-            let remedy = "such as \"thickness-over-slope\"";
+            let remedy = "choose such as \"thickness-over-slope\"";
             return Err(FieldError::new("name", format!("\"{}\"", self.name), rule, remedy));
         }
         for (field, text) in [("caption", &self.caption), ("x", &self.x), ("y", &self.y)] {
@@ -84,17 +84,17 @@ impl FigureText {
                 for (name, place) in &self.at {
                     if !study.variants.contains(&name.as_str()) {
                         let rule = "the name of one of [[variants]]";
-                        return Err(FieldError::new("at", format!("\"{name}\""), rule, "take its name from there"));
+                        return Err(FieldError::new("at", format!("\"{name}\""), rule, "correct the name"));
                     }
                     if !place.is_finite() {
                         let field = format!("at.{name}");
-                        return Err(FieldError::new(&field, place, "a finite number", "give its place in x"));
+                        return Err(FieldError::new(&field, place, "a finite number", "give its x coordinate"));
                     }
                 }
             }
             (over, _) => {
                 let value = if over.is_some() { "beside `at`" } else { "missing" };
-                let remedy = "name a varied number, or say by `at` where each of [[variants]] stands";
+                let remedy = "name a varied number, or give by `at` the position of each of [[variants]]";
                 return Err(FieldError::new("over", value, "exactly one of `over` and `at`", remedy));
             }
         }
@@ -103,7 +103,7 @@ impl FigureText {
             if let Some(check) = series.check.as_ref().filter(|check| !study.checks.contains(&check.as_str())) {
                 let field = format!("{field}.check");
                 let rule = "the name of one of [[checks]]";
-                return Err(FieldError::new(&field, format!("\"{check}\""), rule, "take its name from there"));
+                return Err(FieldError::new(&field, format!("\"{check}\""), rule, "correct the name"));
             }
             if series.check.is_some() != series.curve.is_empty() {
                 let value = if series.check.is_some() { "both" } else { "neither" };
@@ -117,7 +117,7 @@ impl FigureText {
             let has_values = series.simulated.is_some() && series.curve.is_empty();
             if !has_values && series.reference.is_none() {
                 let rule = "at least one of `simulated` and `reference`";
-                return Err(FieldError::new(&field, "neither", rule, "give the label of what is to be drawn"));
+                return Err(FieldError::new(&field, "neither", rule, "give the label of the points to draw"));
             }
             for (name, text) in [("simulated", &series.simulated), ("reference", &series.reference)] {
                 text.as_ref().map_or(Ok(()), |text| check_text(&format!("{field}.{name}"), text))?;

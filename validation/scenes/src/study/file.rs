@@ -44,9 +44,9 @@ pub(super) struct StudyText {
     /// Parameters that take several values, each with each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) vary: Vec<VariedParameter>,
-    /// Checks.
+    /// Checks of the results, each with a limit or observed only.
     #[serde(default)]
-    #[schemars(transform = filled("at least one table", "add a [[checks]] table: without one nothing is judged"))]
+    #[schemars(transform = filled("at least one table", "add a [[checks]] table: without one there is no verdict"))]
     pub(super) checks: Vec<CheckText>,
     /// Wrong physics and wrong inputs that checks must reject.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -117,7 +117,7 @@ pub(super) struct CheckText {
     /// Limit: smallest and largest value, in the unit of what is measured.
     pub(super) within: Option<(f64, f64)>,
     /// Limit: largest distance from the reference in its standard uncertainties `[-]`.
-    #[schemars(transform = positive("2 is a common choice"))]
+    #[schemars(transform = positive("give a factor such as 2"))]
     pub(super) within_uncertainties: Option<f64>,
     /// Reason of the limit; required beside `at_most`, `at_least` and `within`.
     pub(super) reason: Option<String>,
@@ -172,7 +172,7 @@ impl StudyText {
         check_name("study", &self.study)?;
         if !is_file_name(&self.study) {
             let rule = "a name that a folder can have: letters, digits, `-` and `_`";
-            return Err(FieldError::new("study", format!("\"{}\"", self.study), rule, "such as \"my-flume\""));
+            return Err(FieldError::new("study", format!("\"{}\"", self.study), rule, "choose such as \"my-flume\""));
         }
         check_text("summary", &self.summary)?;
         self.description.lines().try_for_each(|line| check_text("description", line))?;

@@ -78,8 +78,8 @@ impl Study {
         // a canonical study may be printed, changed and run from its file
         if registry.find(study.name()).is_ok_and(|case| !case.is_study()) {
             let value = format!("\"{}\"", study.name());
-            let remedy = "choose another name: pages and the baseline are kept by it";
-            return Err(FieldError::new("study", value, "unlike the name of a case", remedy).in_file(file).into());
+            let remedy = "choose another name, under which pages and baseline values are stored";
+            return Err(FieldError::new("study", value, "different from all cases", remedy).in_file(file).into());
         }
         for doubt in study.doubts() {
             caution(&format!("study `{}`: {doubt}", study.name()));
@@ -99,7 +99,7 @@ impl Study {
             let within = |error: FieldError| in_file(error.within(&format!("checks[{place}]")));
             let check = StudyCheck::of(own, beside).map_err(within)?;
             if checks.iter().any(|other| other.name == check.name && other.only == check.only) {
-                let remedy = "give each a name of its own, or other variants by `only`";
+                let remedy = "give each another name, or other variants by `only`";
                 return Err(within(FieldError::new("name", &check.name, "unique", remedy)).into());
             }
             let earlier = match &check.read {
@@ -126,7 +126,7 @@ impl Study {
         let mut files = BTreeMap::new();
         for changed in &changes {
             if let Some(twin) = files.insert(changed.variant.file_name(), &changed.variant) {
-                let rule = format!("unlike {twin} also as a part of file names");
+                let rule = format!("different from {twin} also as part of file names");
                 let error =
                     FieldError::new("variants", &changed.variant, &rule, "rename one: letters, digits and dashes");
                 return Err(in_file(error).into());
@@ -240,8 +240,9 @@ impl Study {
                 }
             }
             if last > end && column.over.is_none() {
-                let rule = format!("at least {last}, the last time that `checks[{place}]` compares");
-                return Err(FieldError::new("duration", end, &rule, "raise it, or end the comparison with `to`"));
+                let rule = format!("at least {last} s, the last time that `checks[{place}]` compares");
+                let remedy = "raise it, or end the comparison with `to`";
+                return Err(FieldError::new("duration", format!("{end} s"), &rule, remedy));
             }
         }
         Ok(())
@@ -252,8 +253,8 @@ impl Study {
         for (place, path, value) in self.changes.iter().flat_map(|changed| &changed.values) {
             if let Some(field) = twice_given(&format!("{path}={value}"), setting) {
                 let file = self.file.display();
-                let rule = format!("of another parameter: `{field}` is given twice, first by `{place}` in {file}");
-                let remedy = "change it there, or leave out --set";
+                let rule = format!("of a parameter that the study leaves free: `{place}` in {file} gives `{field}`");
+                let remedy = "change it there, or leave --set out";
                 return Err(FieldError::new("--set", setting, &rule, remedy));
             }
         }
@@ -307,8 +308,8 @@ impl Study {
             if readings.is_empty() {
                 let variants: Vec<String> =
                     self.changes.iter().take(5).map(|changed| format!("\"{}\"", changed.variant)).collect();
-                let rule = format!("keys of a variant, such as {}", variants.join(", "));
-                let remedy = "leave it out to mean all";
+                let rule = format!("keys and values of a variant, such as {}", variants.join(", "));
+                let remedy = "correct it, or leave it out to select all";
                 return Err(wrong(FieldError::new("only", format!("\"{}\"", check.only), &rule, remedy)).into());
             }
             let metric = |reading: &Reading| {
@@ -326,7 +327,7 @@ impl Study {
         judged.state_hash = state_hash;
         for (place, figure) in own.iter().enumerate() {
             if judged.figures.iter().any(|other| other.name == figure.name) {
-                let rule = "unlike the names of the figures of the checks' columns and of the case";
+                let rule = "different from the names of the case's own figures and those of the checks";
                 let error =
                     FieldError::new(&format!("figures[{place}].name"), &figure.name, rule, "choose another name");
                 return Err(error.in_file(&self.file).into());

@@ -212,7 +212,7 @@ pub(super) fn metrics<'a>(result: &'a CaseResult, name: &str) -> Result<Vec<&'a 
 fn did_you_mean(wanted: &str, known: &[&str]) -> String {
     match nearest(wanted, known.iter().copied()) {
         Some(guess) => format!("did you mean \"{guess}\"?"),
-        None => "name one of these; runs that are done are kept".to_owned(),
+        None => "name one of these; finished runs are not repeated".to_owned(),
     }
 }
 

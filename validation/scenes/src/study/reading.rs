@@ -140,9 +140,9 @@ fn differences(
     if readings.is_empty() {
         let variants: Vec<String> = own().take(5).map(|metric| format!("\"{}\"", metric.variant)).collect();
         let rule =
-            format!("parts of two variants of `{of}` that agree in all other keys; it has {}", variants.join(", "));
+            format!("parts of two variants of `{of}` that agree in all other keys, such as {}", variants.join(", "));
         let value = format!("[\"{first}\", \"{second}\"]");
-        return Err(FieldError::new("between", value, &rule, "name the keys in which they differ"));
+        return Err(FieldError::new("between", value, &rule, "name the keys in which the two differ"));
     }
     Ok(readings)
 }

@@ -43,8 +43,8 @@ impl Suite {
         for path in entries(folder)? {
             if path.is_dir() && !OutputFolder::is_one(&path) {
                 if let Some(study) = entries(&path)?.iter().find(|inner| is_toml(inner) && is_study(inner)) {
-                    let remedy = "move it up, or report its folder by itself from a place beside";
-                    let error = FieldError::finding("study", "in a folder below the suite", remedy);
+                    let remedy = "move it into the suite's folder, or report its own folder as a suite elsewhere";
+                    let error = FieldError::finding("study", "in a subfolder of the suite", remedy);
                     return Err(error.in_file(study).into());
                 }
             } else if is_toml(&path) && !path.is_dir() {
@@ -57,14 +57,14 @@ impl Suite {
         }
         files.sort();
         if files.is_empty() {
-            let (rule, remedy) = ("a folder with at least one study", "a study is a TOML file with `study = \"NAME\"`");
+            let (rule, remedy) = ("a folder with at least one study", "add a TOML file with `study = \"NAME\"`");
             return Err(FieldError::new("--suite", folder.display(), rule, remedy).into());
         }
         let mut studies: Vec<Study> = Vec::new();
         for file in &files {
             let study = Study::read(file, registry)?;
             if let Some(twin) = studies.iter().find(|other| other.name() == study.name()) {
-                let rule = format!("unlike that of {}", twin.file.display());
+                let rule = format!("different from that of {}", twin.file.display());
                 let error = FieldError::new("study", format!("\"{}\"", study.name()), &rule, "rename one of them");
                 return Err(error.in_file(file).into());
             }
@@ -73,7 +73,7 @@ impl Suite {
         Ok(Self { studies })
     }
 
-    /// The studies.
+    /// Studies of the suite in the order of their files.
     #[must_use]
     pub fn studies(&self) -> &[Study] {
         &self.studies

@@ -55,8 +55,8 @@ impl BedLoadFlow {
         let (stream, closures) = (self.stream(), self.continuum.closures);
         let layer = |grains| BedLoadLayer { stream, closures, grains, cell_height: LAYER_CELL, steady_change: STEADY };
         let refused = |error: LayerError| {
-            let rule = "such that the 1-D layer has one steady state";
-            ParameterError::field("continuum.closures", error.to_string(), rule, "see bed-load-1d")
+            let remedy = "change them until bed-load-1d finds one steady state";
+            ParameterError::field("continuum.closures", error.to_string(), "", remedy)
         };
         let one_state = |layer: BedLoadLayer| {
             layer.steady_states_unless(&is_interrupted).and_then(SteadyStates::single).map_err(refused)

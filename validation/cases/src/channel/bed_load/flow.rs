@@ -83,21 +83,21 @@ pub struct GrainParticles {
     #[schemars(transform = positive("give it in metres, such as 0.04"))]
     pub length: f64,
     /// Spacing of the water's particles `[m]`.
-    #[schemars(transform = positive("give it in metres; 0.002 for the paper's"))]
+    #[schemars(transform = positive("give it in metres, such as 0.002 as in the paper"))]
     pub spacing: f64,
     /// Closure of the water's turbulence above the bed.
     pub turbulence: TurbulenceClosure,
     /// Depth of the origin of the mixing length below the bed `[m]`.
-    #[schemars(transform = not_negative("a fraction of a grain diameter, such as 0.0006"))]
+    #[schemars(transform = not_negative("give it in metres, a fraction of a grain diameter, such as 0.0006"))]
     pub origin_offset: f64,
     /// Drag law.
     pub drag: DragLaw,
     /// Smoothing length of the drag `[m]`.
     pub drag_smoothing_length: f64,
     /// Velocity of the water at the start over that of the logarithmic law of a rough bed `[-]`.
-    #[schemars(transform = between(0.0, 3.0, "0.9 is near the steady flow"))]
+    #[schemars(transform = between(0.0, 3.0, "give 0.9 to start near the steady flow"))]
     pub start: f64,
-    /// Numerics.
+    /// Numerical scheme of the incompressible model.
     pub numerics: ProjectionNumerics,
 }
 
@@ -131,24 +131,24 @@ pub struct Continuum {
     /// Closures of particles and of the layer.
     pub closures: Closures,
     /// Diameter of the sphere with the drag of a grain, over d `[-]`.
-    #[schemars(transform = between(0.01, 2.0, "it counts grain diameters: 1 for spheres, 0.5 for crushed plastic"))]
+    #[schemars(transform = between(0.01, 2.0, "give it in grain diameters: 1 for spheres, 0.5 for crushed plastic"))]
     pub drag_diameter: f64,
     /// Largest spacing of grains that move at a given fraction, over τ* d `[-]`: their velocity falls by e over some
     /// 0.9 τ* d, and a layer thinner than that needs finer particles.
-    #[schemars(transform = between(0.1, 100.0, "0.9 puts three rows into the layer that moves"))]
+    #[schemars(transform = between(0.1, 100.0, "give 0.9 for three rows in the moving layer"))]
     pub largest_spacing: f64,
     /// Solid fraction of the layer below which a row carries no sediment particle `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.002 leaves out what carries nothing"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.002 to leave out rows that carry no grains"))]
     pub least_fraction: f64,
     /// Solid fraction below which the topmost row of grains at a given fraction gives its grains to the row below `[-]`.
-    #[schemars(transform = between(0.0, 0.3, "0.03; 0 leaves every row as it is"))]
+    #[schemars(transform = between(0.0, 0.3, "give 0.03, or 0 to keep every row as it is"))]
     pub sparse_row_fraction: f64,
     /// Particles of dilating sediment along a spacing of the water: they cost little, and a layer of a grain's thickness
     /// wants many.
-    #[schemars(transform = between(1.0, 8.0, "2 for an error below 1 % in given water"))]
+    #[schemars(transform = between(1.0, 8.0, "give 2 for an error below 1 % in given water"))]
     pub sediment_refinement: u32,
     /// Largest random displacement of dilating sediment in its spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.3 breaks the rows"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.3 to break the rows"))]
     pub sediment_jitter: f64,
     /// The columns of dilating sediment.
     pub columns: ColumnNumerics,
@@ -183,7 +183,7 @@ pub struct BedLoadFlow {
     #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
     pub grain_diameter: f64,
     /// Simulated time `[s]`.
-    #[schemars(transform = between(0.1, 1e4, "a few seconds, more to be stationary"))]
+    #[schemars(transform = between(0.1, 1e4, "give a few seconds, or more for a stationary flow"))]
     pub duration: f64,
     /// Averaging window before its end `[s]`.
     pub averaging_time: f64,
@@ -192,7 +192,7 @@ pub struct BedLoadFlow {
     /// Volume fractions.
     pub continuum: Continuum,
     /// Largest random displacement of a fluid particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.001 breaks the lattice without waves"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.001 to break the lattice without waves"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
@@ -255,9 +255,9 @@ impl Default for BedLoadFlow {
 impl BedLoadFlow {
     /// The rules between fields.
     pub(super) fn checked(&self) -> Result<(), ParameterError> {
-        let remedy = "grains that float are no bed load";
+        let remedy = "give it in kg/m³; floating grains form no bed load";
         rules::between("grain_density", self.grain_density, 1.01 * self.fluid_density, 1e5, remedy)?;
-        let remedy = "the window lies within the run";
+        let remedy = "shorten the averaging window, or lengthen `duration`";
         rules::between("averaging_time", self.averaging_time, 0.05, self.duration, remedy)?;
         if self.formulation.is_continuum() { self.check_continuum() } else { self.check_particles() }
     }
@@ -268,23 +268,23 @@ impl BedLoadFlow {
         let (grains, diameter) = (&self.particles, self.grain_diameter);
         rules::material("particles.material", &grains.material)?;
         if self.formulation == BedLoadFormulation::Fit && !matches!(grains.material, Rheology::CoulombBingham(_)) {
-            let (rule, remedy) = ("coulomb-bingham in a fit", "its yield stress and viscosity are fitted");
+            let (rule, remedy) = ("coulomb-bingham in a fit", "choose it: its yield stress and viscosity are fitted");
             return Err(ParameterError::field("particles.material.law", grains.material.name(), rule, remedy));
         }
         if grains.drag == DragLaw::Ergun {
-            let (rule, remedy) = ("a law of one grain", "Ergun's is one of packed grains; `continuum` has it");
+            let (rule, remedy) = ("a law for single grains", "choose another; `continuum` has Ergun's law");
             return Err(ParameterError::field("particles.drag", "ergun", rule, remedy));
         }
         for (field, length) in [("particles.bed_depth", grains.bed_depth), ("particles.length", grains.length)] {
             whole(field, length, diameter, "of the grain diameter")?;
             whole(field, length, grains.spacing, "of the spacing")?;
         }
-        let remedy = "a fraction of a grain diameter; it lies within the bed";
+        let remedy = "give it in metres, a fraction of a grain diameter; the origin lies within the bed";
         rules::between("particles.origin_offset", grains.origin_offset, 0.0, grains.bed_depth, remedy)?;
-        let (least, remedy) = (4.8 * diameter, "the period must hold twice the grains' kernel");
+        let (least, remedy) = (4.8 * diameter, "lengthen it: the period must be wider than twice the grains' kernel");
         rules::between("particles.length", grains.length, least, 10.0, remedy)?;
         whole("depth", self.depth, grains.spacing, "of the spacing of every formulation")?;
-        let (most, remedy) = (0.25 * grains.length, "it must hold grains and reach less than a quarter of the period");
+        let (most, remedy) = (0.25 * grains.length, "give a length between a grain and a quarter of the period");
         rules::between("particles.drag_smoothing_length", grains.drag_smoothing_length, 1e-4, most, remedy)?;
         rules::projection("particles.numerics", &grains.numerics)
     }
@@ -302,16 +302,16 @@ impl BedLoadFlow {
         }
         let Closures { mixing_length, karman, turbulent_schmidt, .. } = continuum.closures;
         if mixing_length != MixingLengthClosure::Integral {
-            let remedy = "the particles know no other; bed-load-1d compares all";
+            let remedy = "choose it: the particle model has only this one; bed-load-1d compares all";
             let given = mixing_length.name();
             return Err(ParameterError::field("continuum.closures.mixing_length", given, "integral", remedy));
         }
         if turbulent_schmidt != 0.0 && self.formulation != BedLoadFormulation::Dilating {
-            let (rule, remedy) = ("0 unless grains dilate", "eddies carry no grains of a given fraction");
+            let (rule, remedy) = ("0 unless grains dilate", "give 0: eddies do not disperse other grains");
             return Err(ParameterError::field("continuum.closures.turbulent_schmidt", turbulent_schmidt, rule, remedy));
         }
         if karman != VON_KARMAN {
-            let remedy = "the particles know no other; bed-load-1d takes any";
+            let remedy = "give it: the particle model has this constant; bed-load-1d accepts others";
             return Err(ParameterError::field("continuum.closures.karman", karman, &VON_KARMAN.to_string(), remedy));
         }
         for (name, length) in [
@@ -323,7 +323,7 @@ impl BedLoadFlow {
                 whole(name, length, LAYER_CELL, "of a cell of the 1-D layer")?;
             }
         }
-        let remedy = "0.001 for 1 mm; the period must hold 7";
+        let remedy = "give it in metres: 0.001 for 1 mm; the period must be 7.2 spacings or longer";
         rules::between("continuum.spacing", continuum.spacing, 1e-4, continuum.length / 7.2, remedy)?;
         rules::projection("continuum.numerics", &continuum.numerics)
     }

@@ -86,7 +86,7 @@ pub(super) fn observe(
         measured.push(STREAM_VELOCITY.name);
     }
     let layer = run.formulation.is_continuum().then(|| run.layer()).transpose().map_err(|error| {
-        FieldError::new("runs", error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")
+        FieldError::finding("runs", format!("no 1-D layer for this run ({error})"), "leave the run out")
     })?;
     let observation = BedLoadObservation {
         transport: given.full_series("transport").iter().map(|rate| rate / unit).collect(),

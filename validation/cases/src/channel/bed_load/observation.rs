@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Water and grains of one run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct BedLoadObservation {
-    /// The water.
+    /// Observation of the water.
     pub channel: ChannelObservation,
     /// q* at every sample `[-]`.
     pub transport: Vec<f64>,

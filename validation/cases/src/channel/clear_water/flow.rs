@@ -19,7 +19,7 @@ pub enum Period {
     /// For a fixed time; nothing is claimed about stationarity.
     Fixed {
         /// Simulated time `[s]`.
-        #[schemars(transform = between(0.5, 1e4, "a few seconds, more to be stationary"))]
+        #[schemars(transform = between(0.5, 1e4, "give a few seconds, or more for a stationary flow"))]
         duration: f64,
         /// Averaging window before the end `[s]`.
         averaging_time: f64,
@@ -27,15 +27,15 @@ pub enum Period {
     /// Until the depth mean changes little over U/(2 g i), then for an averaging window.
     Stationary {
         /// Largest relative change `[-]`.
-        #[schemars(transform = between(1e-5, 0.1, "0.005 is half a per cent"))]
+        #[schemars(transform = between(1e-5, 0.1, "give 0.005 for half a per cent"))]
         tolerance: f64,
         /// Times in a row.
-        #[schemars(transform = between(1.0, 20.0, "3 tells a steady flow from a turning point"))]
+        #[schemars(transform = between(1.0, 20.0, "give 3 to tell a steady flow from a turning point"))]
         checks: usize,
         /// Time at which averaging begins all the same, over U/(2 g i) of the logarithmic law `[-]`.
         at_most: f64,
         /// Averaging window over the same `[-]`.
-        #[schemars(transform = between(0.5, 1e3, "8 hold as many blocks"))]
+        #[schemars(transform = between(0.5, 1e3, "give 8, which hold as many blocks"))]
         averaging_times: f64,
     },
 }
@@ -43,7 +43,7 @@ pub enum Period {
 /// Water that flows over its bed, and how long it is watched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClearWaterFlow {
-    /// The water.
+    /// Depth, resolution and density of the water.
     #[serde(flatten)]
     pub water: Water,
     /// Slope i of the bed, a tangent `[-]`; 0.03 is 3 %.
@@ -56,15 +56,15 @@ pub struct ClearWaterFlow {
     #[schemars(transform = positive("give it in metres; about the grain diameter"))]
     pub sand_roughness: f64,
     /// Depth z_off of the wall law's origin below the bed `[m]`.
-    #[schemars(transform = not_negative("a fraction of a grain diameter, such as 0.0006"))]
+    #[schemars(transform = not_negative("give it in metres, a fraction of a grain diameter, such as 0.0006"))]
     pub origin_offset: f64,
     /// Closure of the turbulence; the logarithmic law belongs to the parabolic mixing length.
     pub turbulence: TurbulenceClosure,
     /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.1 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Initial velocity over the logarithmic law's `[-]`.
-    #[schemars(transform = between(0.1, 3.0, "1 starts from the logarithmic law"))]
+    #[schemars(transform = between(0.1, 3.0, "give 1 to start from the logarithmic law"))]
     pub start_share: f64,
     /// How long.
     pub period: Period,
@@ -92,18 +92,18 @@ impl Flow for ClearWaterFlow {
 
     fn check(&self) -> Result<(), ParameterError> {
         let Self { water, origin_offset, sand_roughness, period, .. } = *self;
-        rules::between("origin_offset", origin_offset, 0.0, 0.1 * water.depth, "a fraction of a grain diameter")?;
+        rules::between("origin_offset", origin_offset, 0.0, 0.1 * water.depth, "give a fraction of a grain diameter")?;
         let first_row = 0.5 * water.depth / water.resolution as f64 + origin_offset;
-        let remedy = "the logarithmic law begins at k_s/30, which must lie below the first row of particles";
+        let remedy = "reduce it: the logarithmic law begins at k_s/30, which must lie below the first row of particles";
         rules::between("sand_roughness", sand_roughness, 0.0, roughness_ratio() * first_row, remedy)?;
         match period {
             Period::Fixed { duration, averaging_time } => {
                 let field = "period.fixed.averaging_time";
-                rules::between(field, averaging_time, 0.2, 0.5 * duration, "the window lies in the second half")?;
+                rules::between(field, averaging_time, 0.2, 0.5 * duration, "give at most half of the duration")?;
             }
             Period::Stationary { checks, at_most, .. } => {
                 let field = "period.stationary.at_most";
-                rules::between(field, at_most, checks as f64, 1e3, "25 suffice from 80 % of the law")?;
+                rules::between(field, at_most, checks as f64, 1e3, "give 25 or more")?;
             }
         }
         water.check()

@@ -12,17 +12,17 @@ use serde::{Deserialize, Serialize};
 /// A displaced column of water that comes to rest; without stabilisation of the pressure it blows up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StillWaterFlow {
-    /// The water.
+    /// Depth, resolution and density of the water.
     #[serde(flatten)]
     pub water: Water,
     /// Kinematic viscosity `[m²/s]`.
     #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
     pub kinematic_viscosity: f64,
     /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.1 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Simulated time `[s]`.
-    #[schemars(transform = between(0.1, 1e4, "20 s bring the water to rest; half a second is enough to blow up"))]
+    #[schemars(transform = between(0.1, 1e4, "give 20 s for water at rest; an instability shows within 0.5 s"))]
     pub duration: f64,
     /// Averaging window before the end `[s]`.
     pub averaging_time: f64,
@@ -40,7 +40,7 @@ impl Flow for StillWaterFlow {
 
     fn check(&self) -> Result<(), ParameterError> {
         let longest = 0.5 * self.duration;
-        rules::between("averaging_time", self.averaging_time, 0.01, longest, "the window lies in the second half")?;
+        rules::between("averaging_time", self.averaging_time, 0.01, longest, "give at most half of the duration")?;
         self.water.check()
     }
 

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// A film that starts from its exact profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WaterFilmFlow {
-    /// The water.
+    /// Depth, resolution and density of the water.
     #[serde(flatten)]
     pub water: Water,
     /// Slope i of the bed, a tangent `[-]`; 0.03 is 3 %.
@@ -27,10 +27,10 @@ pub struct WaterFilmFlow {
     /// Arrangement of the particles.
     pub arrangement: Arrangement,
     /// Largest random displacement of a jittered particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.1 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Simulated time over 4h²/(π²ν) `[-]`.
-    #[schemars(transform = between(0.5, 1e3, "4 leave 2 % of the start's error"))]
+    #[schemars(transform = between(0.5, 1e3, "give 4, which leave 2 % of the initial error"))]
     pub relaxation_times: f64,
     /// Averaging window before the end over the same `[-]`.
     pub averaging_times: f64,
@@ -58,7 +58,7 @@ impl Flow for WaterFilmFlow {
 
     fn check(&self) -> Result<(), ParameterError> {
         let longest = 0.5 * self.relaxation_times;
-        rules::between("averaging_times", self.averaging_times, 0.2, longest, "the window lies in the second half")?;
+        rules::between("averaging_times", self.averaging_times, 0.2, longest, "give at most half of the duration")?;
         self.water.check()
     }
 

@@ -44,7 +44,7 @@ pub struct ColumnFlow<const D: usize> {
     /// What the law differs in from that of these grains where that is the question.
     pub altered: Alteration,
     /// Aspect ratio a = h_0/r_0 `[-]`.
-    #[schemars(transform = between(0.1, 100.0, "the published laws reach from 0.3 to 20"))]
+    #[schemars(transform = between(0.1, 100.0, "give 0.3 to 20, the range of the published laws"))]
     pub aspect_ratio: f64,
     /// Half width or radius r_0 `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.1"))]
@@ -56,16 +56,16 @@ pub struct ColumnFlow<const D: usize> {
     #[schemars(transform = rules::gravity())]
     pub gravity: f64,
     /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.05 breaks the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.05 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Number in an ensemble that is judged by its mean, with displacements by `seed` + number − 1; 0 for a column by itself.
     pub ensemble_member: u32,
     /// Longest simulated time over √(h_0/g) `[-]`; a deposit at rest ends a run before.
-    #[schemars(transform = between(0.1, 1000.0, "a column has come to rest after 5 to 12"))]
+    #[schemars(transform = between(0.1, 1000.0, "give 5 to 12, after which a column is at rest"))]
     pub duration: f64,
-    /// Numerics.
+    /// Numerical scheme of the weakly compressible model.
     pub numerics: Numerics,
     /// Density in bulk.
     #[serde(flatten)]
@@ -115,13 +115,12 @@ impl<const D: usize> Flow for ColumnFlow<D> {
         if self.particle_count() <= MOST_PARTICLES {
             return Ok(());
         }
-        let rule = format!("chosen for at most {MOST_PARTICLES:.0e} particles per column");
-        let remedy = format!(
-            "the column of aspect ratio {} would have {:.1e}: choose a smaller resolution",
-            self.aspect_ratio,
+        let (resolution, ratio) = (self.resolution, self.aspect_ratio);
+        let defect = format!(
+            "{resolution} gives {:.1e} particles for the aspect ratio {ratio}, above the limit of {MOST_PARTICLES:.0e}",
             self.particle_count()
         );
-        Err(ParameterError::field("resolution", self.resolution, &rule, &remedy))
+        Err(ParameterError::field("resolution", defect, "", "reduce it"))
     }
 
     fn variant(&self) -> Variant {

@@ -302,7 +302,13 @@ mod tests {
         let message = observe(&run, &ExternalData { pictures: vec![picture], ..ExternalData::default() })
             .expect_err("cm²")
             .to_string();
-        assert!(message.starts_with("`particles.columns.area` is ") && message.contains(" m^2 over all particles at 1 s, but must be within a factor 1.2 of what the column has at the start"), "{message}");
+        assert!(
+            message.starts_with("`particles.columns.area` is ")
+                && message.contains(
+                    " m^2 over all particles at 1 s, but must be within a factor 1.2 of the column's initial value"
+                ),
+            "{message}"
+        );
         let seen = observe(&run, &ExternalData { pictures: vec![block(&run, [1.0; 3])], ..ExternalData::default() });
         assert_eq!(seen.expect("the start").measured, ["particles_lost"]);
     }

@@ -62,8 +62,8 @@ impl Room {
         if sum > self.size / factor && sum < self.size * factor {
             return Ok(());
         }
-        let rule = format!("within a factor {factor} of what the {} has at the start, {:.4e}", self.kind, self.size);
-        let remedy = "check unit, size, solid fraction and part";
+        let rule = format!("within a factor {factor} of the {}'s initial value, {:.4e}", self.kind, self.size);
+        let remedy = "check unit, size, solid fraction, and whether the part asked for is given";
         Err(FieldError::new(field, format!("{sum:.4e} {unit}"), &rule, remedy))
     }
 
@@ -122,13 +122,13 @@ pub(super) fn snapshot<const D: usize>(room: &Room, picture: &ParticleFrame) -> 
     let least = if D == 2 { [-spacing, -reach, -reach] } else { [-spacing, -reach, -spacing] };
     picture.within(reach, least, room.origin)?;
     if D == 2 && !picture.column("z").is_empty() {
-        let remedy = &format!("a planar {} has x along the bed and y upwards", room.kind);
-        return Err(FieldError::new("particles.columns.z", "given", "absent: this run is planar", remedy));
+        let remedy = &format!("leave it out: a planar {} has x along the bed and y upwards", room.kind);
+        return Err(FieldError::finding("particles.columns.z", "given for a planar run", remedy));
     }
     let axes = ["x", "y", "z"];
     let places: Vec<&[f64]> = axes[..D]
         .iter()
-        .map(|axis| picture.needed(axis, "a place has two coordinates in a planar column and three in a round one"))
+        .map(|axis| picture.needed(axis, "give two coordinates in a planar column, three in a round one"))
         .collect::<Result<_, _>>()?;
     let count = places[0].len();
     let velocities: Vec<&[f64]> = SPEEDS[..D].iter().map(|speed| picture.column(speed)).collect();

@@ -31,7 +31,7 @@ pub(crate) struct GrainBlock<const D: usize> {
     pub(crate) jitter: f64,
     /// Seed of the displacements.
     pub(crate) seed: u64,
-    /// Numerics.
+    /// Numerical scheme of the weakly compressible model.
     pub(crate) numerics: Numerics,
 }
 

@@ -17,7 +17,7 @@ pub(crate) struct CollapseObserver {
     times: Vec<f64>,
     /// Time before which no heap has come to rest `[s]`.
     earliest_rest: f64,
-    /// The pictures.
+    /// Particles at the times shown in figures.
     pub(crate) frames: Vec<Frame>,
     /// How many of the times have passed.
     passed: usize,

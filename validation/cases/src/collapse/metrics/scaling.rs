@@ -38,7 +38,7 @@ const FAMILIES: [Family; 3] = [
 /// A power law through the tall columns of a material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scaling {
-    /// The fit.
+    /// Fitted power law.
     pub(crate) law: Exponent,
     /// Half width of the exponent's 95 % interval `[-]`.
     pub(crate) half_width: f64,

@@ -35,7 +35,7 @@ const GATE_ROWS: usize = 4;
 pub struct SlopeFlow {
     /// Slope angle θ `[°]`.
     #[schemars(transform = rules::slope_angle())]
-    #[schemars(transform = not_negative("the grains run down the slope: give its angle in degrees"))]
+    #[schemars(transform = not_negative("give the angle in degrees of a slope that falls along the run-out"))]
     pub slope_angle: f64,
     /// Gravity `[m/s²]`.
     #[schemars(transform = rules::gravity())]
@@ -49,20 +49,20 @@ pub struct SlopeFlow {
     /// Length of the channel from the back of the reservoir `[m]`.
     pub channel_length: f64,
     /// Speed of the gate, pulled up normal to the slope `[m/s]`; 1.3 in the paper, 2.3 in Ionescu et al. (2015), 0 for no gate.
-    #[schemars(transform = between(0.0, 100.0, "the paper pulls it at 1.3 m/s; 0 is no gate"))]
+    #[schemars(transform = between(0.0, 100.0, "give 1.3 m/s as in the paper, or 0 for no gate"))]
     pub gate_speed: f64,
     /// Particles over the length of the reservoir.
     #[schemars(transform = rules::rows())]
     pub resolution: usize,
     /// Largest random displacement of a particle in spacings `[-]`.
-    #[schemars(transform = between(0.0, 0.5, "0.05 breaks the lattice without overlaps"))]
+    #[schemars(transform = between(0.0, 0.5, "give 0.05 to break the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
     /// Longest simulated time `[s]`; a deposit at rest ends a run before.
-    #[schemars(transform = between(0.01, 1000.0, "deposits on mild slopes rest after about 1.5 s"))]
+    #[schemars(transform = between(0.01, 1000.0, "give 1.5 s, after which deposits on mild slopes are at rest"))]
     pub duration: f64,
-    /// Numerics.
+    /// Numerical scheme of the weakly compressible model.
     pub numerics: Numerics,
     /// Density of the grains in bulk.
     #[serde(flatten)]
@@ -98,16 +98,14 @@ impl Flow for SlopeFlow {
 
     fn check(&self) -> Result<(), ParameterError> {
         let (least, most) = (3.0 * self.reservoir_length, 1000.0 * self.reservoir_length);
-        let remedy = "the channel must hold the reservoir, the gate and the run-out";
+        let remedy = "give a channel that holds the reservoir, the gate and the run-out";
         rules::between("channel_length", self.channel_length, least, most, remedy)?;
         let rows = (self.initial_height / self.reservoir_length * self.resolution as f64).round();
         if !(4.0..=1000.0).contains(&rows) {
-            let rule = "such that the reservoir is 4 to 1000 rows of particles high";
-            let remedy = format!(
-                "its height, `initial_height` over `reservoir_length` times this, is {rows}: choose a {} resolution",
-                if rows < 4.0 { "larger" } else { "smaller" }
-            );
-            return Err(ParameterError::field("resolution", self.resolution, rule, &remedy));
+            let remedy = if rows < 4.0 { "raise it" } else { "reduce it" };
+            let defect =
+                format!("{} gives a reservoir {rows} rows of particles high; allowed are 4 to 1000", self.resolution);
+            return Err(ParameterError::field("resolution", defect, "", remedy));
         }
         rules::material("material", &self.material)?;
         self.bulk.check(&self.material)?;

@@ -51,14 +51,14 @@ pub enum Fate {
 /// A layer of grains on an incline.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BagnoldFlow {
-    /// The layer.
+    /// Geometry, resolution and numerics of the layer.
     #[serde(flatten)]
     pub layer: PeriodicLayer,
     /// Slope angle `[°]`. Layers flow steadily between the friction angles of the material.
     #[schemars(transform = rules::slope_angle())]
-    #[schemars(transform = not_negative("the layer lies on a slope that it flows down: give its angle in degrees"))]
+    #[schemars(transform = not_negative("give the angle in degrees of a slope that the layer flows down"))]
     pub slope_angle: f64,
-    /// Start.
+    /// Initial velocity and density of the layer.
     pub start: LayerStart,
     /// Slope angle of the profile that a layer starts with on a slope without steady flow `[°]`.
     #[schemars(transform = rules::slope_angle())]
@@ -66,10 +66,10 @@ pub struct BagnoldFlow {
     /// Arrangement of the particles.
     pub arrangement: Arrangement,
     /// Solid fraction φ `[-]`: the bulk density is φ times the grain density.
-    #[schemars(transform = between(0.0, 1.0, "grains fill 0.5 to 0.64 of the space; 1 where a law gives the density of the bulk"))]
+    #[schemars(transform = between(0.0, 1.0, "give 0.5 to 0.64 for grains, or 1 for a law with a bulk density"))]
     pub solid_fraction: f64,
     /// Simulated time over the recipe's, 3.5 … 5 s at 22 … 25° from rest for 10 mm `[-]`.
-    #[schemars(transform = positive("1 runs as long as the reference figures need"))]
+    #[schemars(transform = positive("give 1 for the duration of the reference figures"))]
     pub duration_factor: f64,
     /// Averaging window before the end `[s]`.
     #[schemars(transform = positive("give it in seconds, such as 0.5"))]
@@ -112,7 +112,7 @@ impl Flow for BagnoldFlow {
             rules::only_mu_i(
                 "material",
                 &self.material,
-                "Bagnold's profile, which the case is judged by, is exact for it alone",
+                "choose it: the case's reference, Bagnold's profile, is exact for this law only",
             )?;
         }
         rules::material("material", &self.material)?;
@@ -124,13 +124,13 @@ impl Flow for BagnoldFlow {
             let grains = self.grains();
             let band = [grains.static_friction, grains.limiting_friction].map(|mu| libm::atan(mu).to_degrees());
             let rule = format!("between {:.2}° and {:.2}°, the friction angles of the material", band[0], band[1]);
-            let remedy = "a layer starts with the profile of a steady flow: choose an angle that has one";
+            let remedy = "choose an angle with a steady flow, whose profile is the start";
             return Err(ParameterError::field("start_angle", self.start_angle, &rule, remedy));
         }
         if self.start == LayerStart::Uncompressed {
             return Ok(());
         }
-        let remedy = "the window must fit into the run: choose a shorter one or a larger `duration_factor`";
+        let remedy = "shorten the averaging window, or raise `duration_factor`";
         rules::between("averaging_time", self.averaging_time, 0.0, self.recipe(), remedy)
     }
 

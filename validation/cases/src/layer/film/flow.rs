@@ -16,12 +16,12 @@ use serde::{Deserialize, Serialize};
 /// A film of any law. A Newtonian film starts from rest, all others from their exact profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FilmFlow {
-    /// The layer.
+    /// Geometry, resolution and numerics of the layer.
     #[serde(flatten)]
     pub layer: PeriodicLayer,
     /// Slope angle `[°]`.
     #[schemars(transform = rules::slope_angle())]
-    #[schemars(transform = between(0.1, 89.0, "a film needs a slope to flow down"))]
+    #[schemars(transform = between(0.1, 89.0, "give the angle in degrees; a film needs a slope to flow down"))]
     pub slope_angle: f64,
     /// Density `[kg/m³]`.
     #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
@@ -31,9 +31,9 @@ pub struct FilmFlow {
     /// Boundary above.
     pub top: Top,
     /// Simulated time over ρh²/η `[-]`: from rest 5 leaves less than 0.01 % of the approach.
-    #[schemars(transform = positive("from rest 5 leaves less than 0.01 % of the approach; 1 from the exact profile"))]
+    #[schemars(transform = positive("give 5 from rest, which leaves 0.01 % of the initial error, or 1 from the exact profile"))]
     pub relaxation_times: f64,
-    /// Fluid.
+    /// Constitutive law of the fluid.
     pub material: Rheology,
 }
 
@@ -66,7 +66,7 @@ impl Flow for FilmFlow {
         rules::material("material", &self.material)?;
         rules::viscous_step("numerics", &self.layer.numerics, &self.material)?;
         let stress = self.incline().shear_stress(0.0);
-        let remedy = format!("the shear stress at the bed is {stress:.3} Pa: above it nothing flows");
+        let remedy = format!("give less than the shear stress at the bed, {stress:.3} Pa");
         if let Rheology::Bingham(Bingham { yield_stress, .. })
         | Rheology::HerschelBulkley(HerschelBulkley { yield_stress, .. }) = self.material
         {
@@ -76,7 +76,7 @@ impl Flow for FilmFlow {
         if flux > 0.0 && flux.is_finite() {
             return Ok(());
         }
-        let rule = format!("a law that flows steadily at {}°", self.slope_angle);
+        let rule = format!("a law with a steady flow at {}°", self.slope_angle);
         let remedy = "choose another `slope_angle`, or other parameters of the law";
         Err(ParameterError::field("material.law", format!("\"{}\"", self.material.name()), &rule, remedy))
     }
@@ -223,7 +223,7 @@ mod tests {
         let message = |material| FilmFlow { material, ..FilmFlow::default() }.check().expect_err("refused").to_string();
         assert_eq!(
             message(Rheology::MuI(GLASS_BEADS.law)),
-            "`material.law` is \"mu-i\", but must be a law that flows steadily at 10°; choose another `slope_angle`, or \
+            "`material.law` is \"mu-i\", but must be a law with a steady flow at 10°; choose another `slope_angle`, or \
              other parameters of the law"
         );
         let stiff = Bingham { yield_stress: 100.0, plastic_viscosity: 0.5, regularisation_rate: 0.3 };

@@ -26,7 +26,7 @@ const WINDOW: f64 = 0.3;
 /// A layer of grains on a slope.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FlowThicknessFlow {
-    /// The layer.
+    /// Geometry, resolution and numerics of the layer.
     #[serde(flatten)]
     pub layer: PeriodicLayer,
     /// Slope angle `[°]` of a steady flow, or at which a layer stops whose slope of arrest is sought.
@@ -36,7 +36,7 @@ pub struct FlowThicknessFlow {
     #[schemars(transform = between(0.0, 89.0, "give a steeper one than `slope_angle`, or 0 for a steady flow"))]
     pub flowing_angle: f64,
     /// Width of the bracket of slopes that ends a search `[°]`.
-    #[schemars(transform = between(1e-3, 90.0, "0.25° takes about six trials; 0.3° is what the nonlocal law's own angle is judged by"))]
+    #[schemars(transform = between(1e-3, 90.0, "give 0.25°, which takes about six trials"))]
     pub stopping_tolerance: f64,
     /// Slope angle `[°]` whose steady profile under the local law each trial of a search starts with.
     #[schemars(transform = rules::slope_angle())]
@@ -44,18 +44,18 @@ pub struct FlowThicknessFlow {
     /// Arrangement of the particles.
     pub arrangement: Arrangement,
     /// Solid fraction φ `[-]`: the bulk density is φ times the grain density.
-    #[schemars(transform = between(0.01, 1.0, "grains fill 0.5 to 0.64 of the space"))]
+    #[schemars(transform = between(0.01, 1.0, "give 0.5 to 0.64, the share of the space that grains fill"))]
     pub solid_fraction: f64,
     /// Simulated time of a steady flow, longest one of a trial `[s]`.
-    #[schemars(transform = between(0.01, 1000.0, "1 s shows a steady flow; 10 s are enough for thin layers to stop"))]
+    #[schemars(transform = between(0.01, 1000.0, "give 1 s for a steady flow, 10 s for thin layers that stop"))]
     pub duration: f64,
     /// The grains, under the local or the nonlocal μ(I) law.
     pub material: Rheology,
     /// Length scale L of the measured h_stop(θ) over the grain diameter `[-]`.
-    #[schemars(transform = positive("1.65 for glass beads, 2.03 for sand"))]
+    #[schemars(transform = positive("give 1.65 for glass beads, 2.03 for sand"))]
     pub deposit_length: f64,
     /// Flow coefficient β of (42) `[-]`.
-    #[schemars(transform = positive("0.136 for glass beads, 0.65 for sand"))]
+    #[schemars(transform = positive("give 0.136 for glass beads, 0.65 for sand"))]
     pub flow_coefficient: f64,
 }
 
@@ -94,7 +94,7 @@ impl Flow for FlowThicknessFlow {
     fn check(&self) -> Result<(), ParameterError> {
         self.layer.check()?;
         if !matches!(self.material, Rheology::MuI(_) | Rheology::NonlocalMuI(_)) {
-            let remedy = "the steady profiles that the layers start with are those of μ(I)";
+            let remedy = "choose one of these: the layers start with steady profiles of μ(I)";
             let name = format!("\"{}\"", self.material.name());
             return Err(ParameterError::field("material.law", name, "\"mu-i\" or \"nonlocal-mu-i\"", remedy));
         }
@@ -103,18 +103,19 @@ impl Flow for FlowThicknessFlow {
         let MuI { static_friction, limiting_friction, .. } = self.grains();
         let [gentlest, steepest] = [static_friction, limiting_friction].map(|mu| libm::atan(mu).to_degrees());
         if self.is_sought() {
-            let remedy = "a layer stops at `slope_angle` and flows at the steeper `flowing_angle`";
+            let remedy = "give a steeper angle than `slope_angle`, at which the layer stops";
             rules::between("flowing_angle", self.flowing_angle, self.slope_angle, 89.0, remedy)?;
-            let remedy = "trials start with a steady flow, which is between arctan μ_s and arctan μ_2 only";
+            let remedy = "give an angle of steady flow, between arctan μ_s and arctan μ_2";
             return rules::between("start_angle", self.start_angle, gentlest, steepest, remedy);
         }
-        let remedy = "a flow is steady between the friction angles arctan μ_s and arctan μ_2 only";
+        let remedy = "give an angle of steady flow, between arctan μ_s and arctan μ_2";
         rules::between("slope_angle", self.slope_angle, gentlest, steepest, remedy)?;
         match self.exact(self.slope_angle).and_then(|layer| layer.stopping_thickness()) {
             Some(thinnest) if self.layer.layer_height < thinnest => {
-                let rule = format!("at least {thinnest:.5}, h_stop of the nonlocal law at this slope");
-                let remedy = "a thinner layer does not flow; choose a thicker one, or a steeper `slope_angle`";
-                Err(ParameterError::field("layer_height", self.layer.layer_height, &rule, remedy))
+                let rule =
+                    format!("at least {thinnest:.5} m, below which the nonlocal law does not flow at this slope");
+                let remedy = "raise it, or raise `slope_angle`";
+                Err(ParameterError::field("layer_height", format!("{} m", self.layer.layer_height), &rule, remedy))
             }
             _ => Ok(()),
         }

@@ -14,16 +14,16 @@ use serde::{Deserialize, Serialize};
 /// A layer at rest. Its numerics say whether density and pressure are coupled.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HydrostaticFlow {
-    /// The layer.
+    /// Geometry, resolution and numerics of the layer.
     #[serde(flatten)]
     pub layer: PeriodicLayer,
     /// Simulated time `[s]`.
-    #[schemars(transform = between(2.2, 1e4, "drift is measured over 0.4 s about 1 s and about 2 s"))]
+    #[schemars(transform = between(2.2, 1e4, "give 2.2 s or more: drift is measured from about 1 s to about 2 s"))]
     pub duration: f64,
     /// Density of the layer.
     #[serde(flatten)]
     pub bulk: Bulk,
-    /// Material.
+    /// Constitutive law of the material.
     pub material: Rheology,
 }
 

@@ -147,8 +147,8 @@ impl ListOfRuns {
         });
         let lowest = self.variants.iter().position(|named| named.tier.is_some());
         let Some(field) = varied.or(lowest.map(|place| format!("variants[{place}].tier"))) else { return Ok(()) };
-        let remedy = "give the values of this tier, and another file for another one";
-        Err(FieldError::new(&field, "given", "absent: the list is of one tier", remedy))
+        let remedy = "keep the values of one tier here, and write another file for the other tier";
+        Err(FieldError::finding(&field, "values of another tier in a list that has one tier", remedy))
     }
 
     /// All varied parameters with their places.
@@ -165,7 +165,7 @@ impl ListOfRuns {
     /// # Errors
     /// The first place that breaks a rule.
     pub fn check(&self) -> Result<(), FieldError> {
-        self.check_at_most(MOST_RUNS, "take fewer values; `bagnold sweep` has no such limit")
+        self.check_at_most(MOST_RUNS, "list fewer values, or use `bagnold sweep`")
     }
 
     /// The same for another number of runs at most, with the remedy for more.
@@ -179,7 +179,7 @@ impl ListOfRuns {
         let variants = self.variants.iter().map(|named| product(&named.vary, 1)).fold(0, usize::saturating_add);
         let count = product(&self.vary, if self.variants.is_empty() { 1 } else { variants });
         if count > most {
-            return Err(FieldError::new("vary", count, &format!("at most {most} runs"), remedy));
+            return Err(FieldError::finding("vary", format!("{count} runs, above the limit of {most}"), remedy));
         }
         for (place, named) in self.variants.iter().enumerate() {
             let field = format!("variants[{place}].name");
@@ -255,18 +255,18 @@ fn check_vary(above: &str, vary: &[VariedParameter], beside: &[VariedParameter])
         let field = format!("{above}vary[{place}]");
         if varied.path.split('.').any(str::is_empty) {
             let (rule, remedy) =
-                ("the dotted path of a parameter", "such as \"slope_angle\"; `bagnold show` prints all");
+                ("the dotted path of a parameter", "give one such as \"slope_angle\"; `bagnold show` prints all");
             return Err(FieldError::new(&format!("{field}.path"), format!("{:?}", varied.path), rule, remedy));
         }
         check_name(&format!("{field}.name"), varied.label())?;
         let twin = |other: &VariedParameter| other.label() == varied.label() || other.path == varied.path;
         if varied.label() == "variant" || vary[..place].iter().chain(beside).any(twin) {
-            let remedy = "vary each parameter once, under a `name` of its own; \"variant\" is that of [[variants]]";
+            let remedy = "vary each parameter once, each with another `name`; \"variant\" is reserved for [[variants]]";
             return Err(FieldError::new(&format!("{field}.name"), varied.label(), "unique", remedy));
         }
         if varied.values.is_empty() {
-            let remedy = "list the values, such as [0.01, 0.005]";
-            return Err(FieldError::new(&format!("{field}.values"), "empty", "at least one value", remedy));
+            let remedy = "list them, such as [0.01, 0.005]";
+            return Err(FieldError::finding(&format!("{field}.values"), "no values", remedy));
         }
         let mut seen = BTreeMap::new();
         for (place, value) in varied.values.iter().enumerate() {
@@ -275,12 +275,12 @@ fn check_vary(above: &str, vary: &[VariedParameter], beside: &[VariedParameter])
             };
             let known_by = identity(value);
             if known_by.contains("NaN") && !value.is_str() {
-                let remedy = "nothing can be simulated with it: correct it, or leave it out";
+                let remedy = "correct it, or leave it out";
                 return refused(value.to_string(), "a number", remedy);
             }
             if let Some(earlier) = seen.insert(known_by, place) {
-                let value = format!("{value}, equal to `{field}.values[{earlier}]`");
-                return refused(value, "unique", "list every value once: equal ones are the same run");
+                let defect = format!("{value} is listed already as `{field}.values[{earlier}]`");
+                return refused(defect, "", "list each value once");
             }
         }
     }
@@ -326,8 +326,8 @@ pub fn settings_to_vary(arguments: &[String]) -> Result<Vec<String>, FieldError>
     for argument in arguments {
         let parts = argument.split_once('=').map(|(path, values)| (path.trim(), values.trim()));
         let Some((path, values)) = parts.filter(|(path, values)| !path.is_empty() && !values.is_empty()) else {
-            let remedy = "such as --vary resolution=10,20";
-            return Err(FieldError::new("--vary", argument, "FIELD=A,B,C", remedy));
+            let remedy = "write it as in --vary resolution=10,20";
+            return Err(FieldError::new("--vary", argument, "of the form FIELD=A,B,C", remedy));
         };
         let text = if values.starts_with('[') { values.to_owned() } else { format!("[{values}]") };
         let list =
@@ -340,8 +340,7 @@ pub fn settings_to_vary(arguments: &[String]) -> Result<Vec<String>, FieldError>
         vary.push(VariedParameter { path: path.to_owned(), name: None, values, paper: None, fine: None });
     }
     check_vary("--", &vary, &[])?;
-    let list =
-        Value::try_from(vary).map_err(|error| FieldError::new("--vary", error, "values of TOML", "change it"))?;
+    let list = Value::try_from(vary).map_err(|error| FieldError::finding("--vary", error, "correct the values"))?;
     Ok(vec!["variants=[]".to_owned(), format!("vary={list}")])
 }
 
@@ -377,7 +376,7 @@ mod tests {
         }
         assert_eq!(
             message("[1.0, nan]"),
-            "`vary[0].values[1]` is nan, but must be a number; nothing can be simulated with it: correct it, or leave it out"
+            "`vary[0].values[1]` is nan, but must be a number; correct it, or leave it out"
         );
         assert!(message("[[1.0, nan]]").contains("must be a number"));
     }

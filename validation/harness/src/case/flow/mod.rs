@@ -119,7 +119,7 @@ pub struct RunList<F> {
     /// The values of all runs that have no others.
     #[serde(flatten)]
     pub base: F,
-    /// The list.
+    /// Variants and varied parameters.
     #[serde(flatten)]
     pub list: ListOfRuns,
     /// The runs, once they are asked for: a tier's own are often replaced before.
@@ -151,8 +151,8 @@ impl<F: Flow> ListedFlows<F> {
         let mut names = BTreeSet::new();
         let mut names_of = flows.iter().zip(&labels).map(|(flow, label)| flow.variant().followed_by(label));
         if let Some(twin) = names_of.find(|name| !names.insert(name.clone())) {
-            let (value, rule) = (format!("of two runs \"{twin}\""), "a list of runs with unlike names");
-            return Err(ParameterError::field("vary", value, rule, "give what is varied another `name`"));
+            let defect = format!("two runs are named \"{twin}\"");
+            return Err(ParameterError::field("vary", defect, "", "give one of the varied parameters another `name`"));
         }
         Ok(Self { flows, labels })
     }
@@ -174,7 +174,7 @@ impl<F: Flow> RunList<F> {
         self.listed.get_or_init(|| listed().unwrap_or_else(|error| panic!("a case's list of runs: {error}")))
     }
 
-    /// The runs.
+    /// Runs in the order of the list.
     #[must_use]
     pub fn flows(&self) -> &[F] {
         &self.listed().flows
@@ -215,7 +215,8 @@ fn changed<F: Flow>(case: &str, base: &Table, change: &ListedChange) -> Result<F
     }
     value.try_into().map_err(|error: toml::de::Error| {
         let place = change.values.first().map_or("variants", |(place, ..)| place);
-        ParameterError::field(place, change.variant.to_string(), error.message(), "change the values of this run")
+        let defect = format!("run {}: {}", change.variant, error.message());
+        ParameterError::field(place, defect, "", "correct the values of this run")
     })
 }
 

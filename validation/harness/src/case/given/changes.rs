@@ -89,8 +89,7 @@ pub(in crate::case) fn table_of<P: Serialize>(parameters: &P) -> Table {
 pub(in crate::case) fn typed<T: DeserializeOwned>(case: &str, table: Table) -> Result<T, ParameterError> {
     Value::Table(table).try_into().map_err(|error: toml::de::Error| {
         let usual = format!("`bagnold show {case}` prints valid ones");
-        let (field, value, rule, remedy) =
-            said(error.message()).unwrap_or(("parameters", "not valid", error.message(), &usual));
+        let (field, value, rule, remedy) = said(error.message()).unwrap_or(("parameters", error.message(), "", &usual));
         ParameterError::field(field, value, rule, remedy)
     })
 }
@@ -143,14 +142,14 @@ const READ_WITH_THE_FILE: [(&str, &[&str]); 2] =
 /// Refuses a setting of how a file is read that has been read with the case file: its contents would stay.
 fn refuse_beside_read(changes: &Changes<'_>, argument: &str) -> Result<(), FieldError> {
     let named = || {
-        let ((path, value), (_, fields)) = (parts(argument)?, changes.file.as_ref()?);
+        let ((path, _), (_, fields)) = (parts(argument)?, changes.file.as_ref()?);
         let (place, field) = path.rsplit_once('.')?;
         let (list, index) = place.strip_suffix(']')?.split_once('[')?;
         let entry = fields.get(list)?.as_array()?.get(index.parse::<usize>().ok()?)?.as_table()?;
         let is_read = |name: &str| entry.get(name).and_then(Value::as_str).is_some_and(|name| !name.is_empty());
         READ_WITH_THE_FILE.iter().find(|(name, with)| with.contains(&field) && is_read(name))?;
-        let remedy = "change it in the case file, or in a copy";
-        Some(FieldError::new(path, value, "read with the case file that gives it", remedy).set_by(argument.to_owned()))
+        let defect = "cannot be set, because its file has been read with the case file";
+        Some(FieldError::finding(path, defect, "change it in the case file, or in a copy").set_by(argument.to_owned()))
     };
     named().map_or(Ok(()), Err)
 }
@@ -161,14 +160,14 @@ pub(in crate::case) fn refuse_former(
     changes: &Changes<'_>,
 ) -> Result<(), ParameterError> {
     let of_file = changes.file.iter().flat_map(|(file, fields)| fields.iter().map(|field| (Some(*file), field)));
-    let of_file = of_file.map(|(file, (path, value))| (file, path.as_str(), value.to_string()));
+    let of_file = of_file.map(|(file, (path, _))| (file, path.as_str()));
     let set = changes.settings.iter().filter_map(|setting| parts(setting));
-    for (file, old, value) in of_file.chain(set.map(|(path, value)| (None, path, value.to_owned()))) {
+    for (file, old) in of_file.chain(set.map(|(path, _)| (None, path))) {
         let now = former.get(old).or_else(|| former.get(old.split('.').next()?));
         if let Some(now) = now {
-            let rule = format!("absent: a run has one value, `{now}`");
-            let remedy = format!("give several by `--vary {now}=A,B,C`, in a file by [[vary]] with path = \"{now}\"");
-            return Err(ParameterError::field(old, value, &rule, &remedy).given_in(file));
+            let defect = format!("replaced by the single value `{now}`");
+            let remedy = format!("for several, use `--vary {now}=A,B,C`, or in a file [[vary]] with path = \"{now}\"");
+            return Err(ParameterError::field(old, defect, "", &remedy).given_in(file));
         }
     }
     Ok(())
@@ -406,7 +405,7 @@ fn add_setting(defaults: &Table, settings: &mut Table, argument: &str) -> Result
             .unwrap_or_else(|| "path=value".to_owned());
         let path = format!("\"{}\"", argument.split('=').next().unwrap_or_default());
         let rule = "the dotted path of a parameter, followed by `=` and a value";
-        let error = FieldError::new("path", path, rule, &format!("such as `{example}`"));
+        let error = FieldError::new("path", path, rule, &format!("write it as in `{example}`"));
         return Err(error.set_by(argument.to_owned()));
     };
     lay_at(settings, path, &value_of(text));

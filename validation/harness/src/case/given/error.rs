@@ -11,11 +11,11 @@ pub enum ParameterError {
     #[error(transparent)]
     Field(#[from] FieldError),
     /// An error that names no field of the user's.
-    #[error("{}{error}; what differs from the tier: {changed}", before(origin))]
+    #[error("{}{error}; changed from the tier's defaults: {changed}", before(origin))]
     Changed {
         /// File of the user's, where there is one.
         origin: Option<Origin>,
-        /// The error.
+        /// Error of the changed parameters together.
         error: Box<ParameterError>,
         /// The fields that the user has changed, with their values.
         changed: String,
@@ -27,7 +27,7 @@ pub enum ParameterError {
     #[error(transparent)]
     File(#[from] FileError),
     /// A signal has asked the program to end; what the run has come to is kept where it can be.
-    #[error("interrupted before it was done")]
+    #[error("interrupted before the run was finished")]
     Interrupted,
     /// The thread pool cannot be built.
     #[error("`--threads {threads}` cannot be started ({reason}); ask for fewer threads")]
@@ -51,7 +51,7 @@ impl ParameterError {
     pub fn unknown_case(name: &str, nearest: &Option<String>) -> Self {
         let is_file = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
         let meant = did_you_mean(nearest);
-        let instead = if is_file { "that is a file, which `bagnold run` reads; " } else { meant.as_str() };
+        let instead = if is_file { "run a file with `bagnold run`; " } else { meant.as_str() };
         FieldError::finding(name, "unknown case", &format!("{instead}`bagnold list` prints all cases")).into()
     }
 
@@ -89,7 +89,7 @@ impl ParameterError {
     #[must_use]
     pub fn in_case(mut self, case: &str) -> Self {
         if let Self::Field(FieldError { remedy, .. }) = &mut self {
-            *remedy = format!("{remedy} (refused by {case}, which --cases may leave out)").into();
+            *remedy = format!("{remedy} (refused by the case {case}; --cases can leave it out)").into();
         }
         self
     }
@@ -98,7 +98,7 @@ impl ParameterError {
     #[must_use]
     pub fn in_no_case(mut self) -> Self {
         if let Self::Field(FieldError { value, .. }) = &mut self {
-            "a field of no case of this report".clone_into(value);
+            "no case of this report has this field".clone_into(value);
         }
         self
     }

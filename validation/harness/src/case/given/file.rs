@@ -49,9 +49,8 @@ impl CaseFile {
             Some(Value::String(case)) => shortened(case),
             Some(other) => return Err(wrong("case", &other, "the name of a case", "`bagnold list` prints the names")),
             None if fields.contains_key("study") => {
-                let (rule, remedy) =
-                    ("absent from the file of a case", "`bagnold run` takes a study; here name its base");
-                return Err(ParameterError::field("study", "given", rule, remedy).in_file(path));
+                let remedy = "run it with `bagnold run`, or name its base file here";
+                return Err(FieldError::finding("study", "a study, not a case file", remedy).in_file(path).into());
             }
             None => {
                 let remedy = "add `case = \"…\"` (`bagnold list` prints the names)";
@@ -72,7 +71,7 @@ impl CaseFile {
             None => Vec::new(),
             Some(value) => value.clone().try_into::<Vec<MeasuredFiles>>().map_err(|_| {
                 let rule = "files with measurements, or tables of `files` and `columns`";
-                wrong("overlay", &value, rule, "write overlay = [\"mine.csv\"], beside this file")
+                wrong("overlay", &value, rule, "write overlay = [\"mine.csv\"]")
             })?,
         };
         let beside = path.parent().unwrap_or(Path::new(""));
@@ -110,13 +109,13 @@ impl CaseFile {
         let base = base.map(|base| Self::read(&plan.parent().unwrap_or(Path::new("")).join(base))).transpose()?;
         let Some(name) = case.or(base.as_ref().map(|base| &*base.case)) else {
             let remedy = "add case = \"scene\", or base = \"my-case.toml\"";
-            return Err(FieldError::new("case", "missing", "the name of a case, or `base` a case file", remedy).into());
+            return Err(FieldError::finding("case", "missing", remedy).into());
         };
         let own = Self::of_parameters(plan, name, tier, own)?;
         let Some(mut base) = base else { return Ok(own) };
         if own.case != base.case {
             let rule = format!("the case of {}, \"{}\"", base.path.display(), base.case);
-            let remedy = "name in both files what is simulated";
+            let remedy = "name the same case in both files";
             return Err(ParameterError::field("case", format!("\"{}\"", own.case), &rule, remedy).in_file(plan));
         }
         base.lay_over(&own.fields);
@@ -201,7 +200,7 @@ mod tests {
             message("case = \"film\"\ntier = \"papre\""),
             "case.toml: `tier` is \"papre\", but must be one of `quick`, `paper`, `fine`; did you mean `paper`?"
         );
-        assert!(message("study = \"mine\"").contains("`study` is given, but must be absent from the file of a case"));
+        assert!(message("study = \"mine\"").contains("`study`: a study, not a case file; run it with"));
         assert!(message("case = \"film\"\ndepth = = 1").starts_with("case.toml: `line 2, column 9`: "));
     }
 
@@ -214,7 +213,7 @@ mod tests {
         assert!(file.fields.is_empty());
         assert_eq!(
             read("case = \"film\"\noverlay = 3").expect_err("no list").to_string(),
-            "mine/case.toml: `overlay` is 3, but must be files with measurements, or tables of `files` and `columns`; write overlay = [\"mine.csv\"], beside this file"
+            "mine/case.toml: `overlay` is 3, but must be files with measurements, or tables of `files` and `columns`; write overlay = [\"mine.csv\"]"
         );
     }
 

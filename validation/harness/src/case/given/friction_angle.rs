@@ -26,18 +26,11 @@ pub(in crate::case) fn wrong(fields: &Table, above: &str) -> Option<ParameterErr
                 let angle = number_in(value)?;
                 if !(angle > 0.0 && angle < 90.0) {
                     let remedy = "give the angle at which grains stop in degrees, such as 20.9 for glass beads";
-                    return Some(ParameterError::field(
-                        &path,
-                        angle,
-                        "between 0 and 90 degrees, ends excluded",
-                        remedy,
-                    ));
+                    return Some(ParameterError::field(&path, angle, "above 0° and below 90°", remedy));
                 }
                 let coefficient = fields.get(COEFFICIENT)?;
-                let rule = format!(
-                    "alone: it is the angle whose tangent is `{COEFFICIENT}`, which is given too, as {coefficient}"
-                );
-                Some(ParameterError::field(&path, angle, &rule, "leave one of the two out"))
+                let defect = format!("given together with `{COEFFICIENT}` ({coefficient}), the tangent of the angle");
+                Some(ParameterError::field(&path, defect, "", "leave one of the two out"))
             }
             _ => None,
         }

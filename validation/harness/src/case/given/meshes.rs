@@ -27,15 +27,16 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
         };
         let Some(name) = wall.get("mesh").and_then(Value::as_str).filter(|name| !name.is_empty()) else { continue };
         let field = format!("walls[{index}].mesh");
-        let refused =
-            |rule: &str, remedy: &str| ParameterError::field(&field, format!("\"{name}\""), rule, remedy).in_file(path);
+        let refused = |defect: &str, remedy: &str| {
+            ParameterError::field(&field, format!("\"{name}\" {defect}"), "", remedy).in_file(path)
+        };
         let mesh = read_mesh(&beside.join(name)).map_err(|error| {
             ParameterError::field(&field, format!("\"{name}\" {error}"), "", error.remedy()).in_file(path)
         })?;
         count += mesh.triangles.len();
         if count > MOST_TRIANGLES {
-            let rule = format!("at most {MOST_TRIANGLES} triangles together with the meshes before it");
-            return Err(refused(&rule, "simplify the meshes"));
+            let defect = format!("has, with the meshes before it, more than {MOST_TRIANGLES} triangles");
+            return Err(refused(&defect, "simplify the meshes"));
         }
         if mesh.left_out > 0 {
             caution(&format!("{name}: {} triangles without an area are left out", mesh.left_out));
@@ -45,15 +46,15 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
             mesh.triangles.iter().map(|corners| corners.map(|at| placed.place(at))).collect();
         let farthest = triangles.iter().flatten().flatten().fold(0.0_f64, |most, at| most.max(at.abs()));
         if farthest > LARGEST_LENGTH {
-            let rule = format!("within {LARGEST_LENGTH:e} m of the origin, not {} m away", four_digits(farthest));
-            return Err(refused(&rule, "subtract the corner of the map from all coordinates in the file"));
+            let defect = format!("reaches {} m from the origin, beyond {LARGEST_LENGTH:e} m", four_digits(farthest));
+            return Err(refused(&defect, "subtract a common offset from all coordinates in the file"));
         }
         let (key, value) = match triangles.len() {
             0..=MOST_LISTED => ("triangles", Value::try_from(&triangles)),
             _ => ("packed", Ok(Value::String(packed(&triangles)))),
         };
         let value = value.map_err(|_| {
-            refused("a mesh that a case file can repeat", "write it anew from the program that made it")
+            refused("cannot be repeated in a case file", "export it again from the program that made it")
         })?;
         wall.insert(key.to_owned(), value);
     }
@@ -165,13 +166,16 @@ mod tests {
         let unit = read("[[walls]]\nmesh = \"a.stl\"\nunit = \"ft\"", &path).expect_err("no such unit");
         assert!(unit.contains("`walls[0].unit` is \"ft\", but must be one of"), "{unit}");
         let map = read("[[walls]]\nmesh = \"a.stl\"\nscale = 500000", &path).expect_err("a map");
-        assert!(map.contains("must be within 1e5 m of the origin, not 500000 m away; subtract the corner"), "{map}");
+        assert!(
+            map.contains("\"a.stl\" reaches 500000 m from the origin, beyond 1e5 m; subtract a common offset"),
+            "{map}"
+        );
         let own = "[[walls]]\nmesh = \"gone.stl\"\ntriangles = []";
         assert!(read(own, &path).is_ok(), "a wall that has triangles needs no file");
         assert_eq!(
             read("[[walls]]\nmesh = \"gone.stl\"", Path::new("mine/case.toml")).expect_err("no file"),
             "mine/case.toml: `walls[0].mesh`: \"gone.stl\" cannot be \
-             read (No such file or directory (os error 2)); check the path, which begins at this file, and its permissions"
+             read (No such file or directory (os error 2)); check the path, which is relative to this file, and its permissions"
         );
     }
 }

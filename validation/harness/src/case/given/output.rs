@@ -57,7 +57,7 @@ impl OutputPlan {
                 "output.fields",
                 format!("\"{unknown}\""),
                 &rule,
-                &format!("{guess}leave them out for all"),
+                &format!("{guess}leave `fields` out to write all"),
             ));
         }
         Ok(Self { every, fields })
@@ -77,7 +77,7 @@ impl OutputPlan {
     pub(in crate::case) fn taken(fields: &mut toml::Table, path: &Path) -> Result<Option<Self>, FieldError> {
         let Some(given) = fields.remove("output") else { return Ok(None) };
         let plan = given.clone().try_into().map_err(|error: toml::de::Error| {
-            let remedy = format!("{}: write such as output = {{ every = 0.01 }}", error.message());
+            let remedy = format!("write output = {{ every = 0.01 }} ({})", error.message());
             FieldError::new("output", given, "a table with `every` and `fields`", &remedy)
         });
         let plan = plan.and_then(|plan: Self| Self::new(plan.every, plan.fields));
@@ -108,7 +108,7 @@ mod tests {
         for (text, expected) in [
             (
                 "output = 3",
-                "case.toml: `output` is 3, but must be a table with `every` and `fields`; invalid type: integer `3`, expected a table: write such as output = { every = 0.01 }",
+                "case.toml: `output` is 3, but must be a table with `every` and `fields`; write output = { every = 0.01 } (invalid type: integer `3`, expected a table)",
             ),
             (
                 "output = { every = -1 }",
@@ -116,11 +116,11 @@ mod tests {
             ),
             (
                 "output = { }",
-                "case.toml: `output` is {}, but must be a table with `every` and `fields`; missing field `every`: write such as output = { every = 0.01 }",
+                "case.toml: `output` is {}, but must be a table with `every` and `fields`; write output = { every = 0.01 } (missing field `every`)",
             ),
             (
                 "output = { evry = 1 }",
-                "case.toml: `output` is { evry = 1 }, but must be a table with `every` and `fields`; unknown field `evry`, expected `every` or `fields`: write such as output = { every = 0.01 }",
+                "case.toml: `output` is { evry = 1 }, but must be a table with `every` and `fields`; write output = { every = 0.01 } (unknown field `evry`, expected `every` or `fields`)",
             ),
         ] {
             assert_eq!(taken(text), Err(expected.to_owned()));
@@ -130,6 +130,6 @@ mod tests {
             message.starts_with("case.toml: `output.fields` is \"presure\", but must be one of id, mass,"),
             "{message}"
         );
-        assert!(message.ends_with("did you mean `pressure`? leave them out for all"), "{message}");
+        assert!(message.ends_with("did you mean `pressure`? leave `fields` out to write all"), "{message}");
     }
 }

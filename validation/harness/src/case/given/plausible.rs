@@ -15,21 +15,21 @@ struct Usual {
 }
 
 const ANY: f64 = f64::INFINITY;
-const DEGREES: &str = "as an angle in degrees, which `friction_angle` takes,";
+const DEGREES: &str = "degrees, the value of `friction_angle`,";
 
 /// Usual values; the first of several rows for one field has its range.
 const USUAL: &[Usual] = &[
-    Usual { field: "slope_angle", range: 1.0..=60.0, unit: "°", slip: (0.1..1.0, f64::to_degrees, "in radians") },
-    Usual { field: "friction_angle", range: 3.0..=60.0, unit: "°", slip: (-ANY..1.2, f64::to_degrees, "in radians") },
-    Usual { field: "static_friction", range: 0.02..=2.0, unit: "-", slip: (3.0..60.0, tangent, DEGREES) },
-    Usual { field: "grain_diameter", range: 1e-6..=0.1, unit: "m", slip: (0.1..ANY, thousandth, "in millimetres") },
+    Usual { field: "slope_angle", range: 1.0..=60.0, unit: " °", slip: (0.1..1.0, f64::to_degrees, "in radians") },
+    Usual { field: "friction_angle", range: 3.0..=60.0, unit: " °", slip: (-ANY..1.2, f64::to_degrees, "in radians") },
+    Usual { field: "static_friction", range: 0.02..=2.0, unit: "", slip: (3.0..60.0, tangent, DEGREES) },
+    Usual { field: "grain_diameter", range: 1e-6..=0.1, unit: " m", slip: (0.1..ANY, thousandth, "in millimetres") },
     Usual {
-        field: "grain_density", range: 500.0..=12e3, unit: "kg/m³", slip: (-ANY..12.0, thousandfold, "in g/cm³")
+        field: "grain_density", range: 500.0..=12e3, unit: " kg/m³", slip: (-ANY..12.0, thousandfold, "in g/cm³")
     },
-    Usual { field: "bulk_density", range: 100.0..=2e4, unit: "kg/m³", slip: (-ANY..8.0, thousandfold, "in g/cm³") },
-    Usual { field: "fluid_density", range: 500.0..=3e3, unit: "kg/m³", slip: (0.5..3.0, thousandfold, "in g/cm³") },
-    Usual { field: "gravity", range: 1.0..=300.0, unit: "m/s²", slip: (900.0..1100.0, hundredth, "in cm/s²") },
-    Usual { field: "gravity", range: 1.0..=300.0, unit: "m/s²", slip: (9e3..11e3, thousandth, "in mm/s²") },
+    Usual { field: "bulk_density", range: 100.0..=2e4, unit: " kg/m³", slip: (-ANY..8.0, thousandfold, "in g/cm³") },
+    Usual { field: "fluid_density", range: 500.0..=3e3, unit: " kg/m³", slip: (0.5..3.0, thousandfold, "in g/cm³") },
+    Usual { field: "gravity", range: 1.0..=300.0, unit: " m/s²", slip: (900.0..1100.0, hundredth, "in cm/s²") },
+    Usual { field: "gravity", range: 1.0..=300.0, unit: " m/s²", slip: (9e3..11e3, thousandth, "in mm/s²") },
 ];
 
 fn tangent(degrees: f64) -> f64 {
@@ -68,7 +68,8 @@ fn collect(fields: &Table, above: &str, found: &mut Vec<(String, String)>) {
                 let size = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
                 found.extend(unusual(name, &path, size));
                 if let Some(up) = parts.last().filter(|up| **up > 0.0) {
-                    let text = format!("`{path}` points upwards: its last component is {up}; downwards it is {}", -up);
+                    let text =
+                        format!("`{path}` points upwards: its last component is {up}; for downwards give {}", -up);
                     found.push((path, text));
                 }
             }
@@ -93,8 +94,8 @@ fn unusual(name: &str, path: &str, value: f64) -> Option<(String, String)> {
     }
     let (shown, low, high) = (four_digits(value), range.start(), range.end());
     let slip = rows.map(|usual| &usual.slip).find(|(values, ..)| values.contains(&value));
-    let likely = slip.map(|(_, meant, words)| format!("; {shown} {words} is {}", four_digits(meant(value))));
-    let text = format!("`{path}` is {shown} {unit}, usual are {low} to {high} {unit}{}", likely.unwrap_or_default());
+    let likely = slip.map(|(_, meant, words)| format!("; {shown} {words} is {}{unit}", four_digits(meant(value))));
+    let text = format!("`{path}` is {shown}{unit}, but usually {low} to {high}{unit}{}", likely.unwrap_or_default());
     Some((path.to_owned(), text))
 }
 
@@ -119,15 +120,15 @@ mod tests {
         };
         assert_eq!(
             of("[sand.law]\nfriction_angle = 0.48"),
-            "`sand.law.friction_angle` is 0.48 °, usual are 3 to 60 °; 0.48 in radians is 27.50"
+            "`sand.law.friction_angle` is 0.48 °, but usually 3 to 60 °; 0.48 in radians is 27.50 °"
         );
-        assert!(of("material.grain_diameter = 0.7").ends_with("; 0.7 in millimetres is 7×10⁻⁴"));
-        assert!(of("material.grain_density = 2.65").ends_with("; 2.65 in g/cm³ is 2650"));
+        assert!(of("material.grain_diameter = 0.7").ends_with("; 0.7 in millimetres is 7×10⁻⁴ m"));
+        assert!(of("material.grain_density = 2.65").ends_with("; 2.65 in g/cm³ is 2650 kg/m³"));
         assert_eq!(of("bulk_density = 13534.0"), "", "mercury");
         assert!(of("bulk_density = 13.5").contains("13.5"), "mercury in g/cm³");
-        assert!(of("gravity = [0.0, -966.0]").ends_with("; 966 in cm/s² is 9.66"));
-        assert!(of("gravity = [0.0, 9.81]").ends_with("its last component is 9.81; downwards it is -9.81"));
-        assert!(of("gravity = [0.0, -9810.0]").ends_with("; 9810 in mm/s² is 9.81"));
+        assert!(of("gravity = [0.0, -966.0]").ends_with("; 966 in cm/s² is 9.66 m/s²"));
+        assert!(of("gravity = [0.0, 9.81]").ends_with("its last component is 9.81; for downwards give -9.81"));
+        assert!(of("gravity = [0.0, -9810.0]").ends_with("; 9810 in mm/s² is 9.81 m/s²"));
         assert!(
             of("bodies = [{ material = { static_friction = 27 } }]")
                 .contains("bodies[0].material.static_friction` is 27 -")

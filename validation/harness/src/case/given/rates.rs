@@ -19,19 +19,20 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
         let Some(inlet) = inlet.as_table_mut().filter(|inlet| !inlet.contains_key("rates")) else { continue };
         let Some(name) = inlet.get("table").and_then(Value::as_str).filter(|name| !name.is_empty()) else { continue };
         let field = format!("inlets[{index}].table");
-        let refused =
-            |rule: &str, remedy: &str| ParameterError::field(&field, format!("\"{name}\""), rule, remedy).in_file(path);
+        let refused = |defect: &str, remedy: &str| {
+            ParameterError::field(&field, format!("\"{name}\" {defect}"), "", remedy).in_file(path)
+        };
         let text = read_text(&beside.join(name), DOCUMENT).map_err(|error| {
-            let remedy = "check the path, which begins at this file, and its permissions";
-            ParameterError::field(&field, format!("\"{name}\" cannot be read ({error})"), "", remedy).in_file(path)
+            let remedy = "check the path, which is relative to this file, and its permissions";
+            refused(&format!("cannot be read ({error})"), remedy)
         })?;
         // an opening in the plane feeds per width
         let rate_unit = if inlet.contains_key("corners") { "kg/s" } else { "kg/(m s)" };
         let rows = rows(&text, &beside.join(name), rate_unit)?;
         count += rows.len();
         if count > MOST_ROWS {
-            let rule = format!("at most {MOST_ROWS} rows together with the tables before it");
-            return Err(refused(&rule, "give fewer times: the rate is linear between them"));
+            let defect = format!("has, with the tables before it, more than {MOST_ROWS} rows");
+            return Err(refused(&defect, "give fewer times; the rate is linear between them"));
         }
         let row = |(time, rate): (f64, f64)| Value::Array(vec![Value::Float(time), Value::Float(rate)]);
         inlet.insert("rates".to_owned(), rows.into_iter().map(row).collect::<Vec<_>>().into());
@@ -43,7 +44,7 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
 fn rows(text: &str, file: &Path, rate_unit: &str) -> Result<Vec<(f64, f64)>, FieldError> {
     let TextTable { headings, columns } = TextTable::parse(text, file)?;
     let [times, rates] = &columns[..] else {
-        let defect = format!("{} columns", columns.len());
+        let defect = format!("{} columns instead of 2", columns.len());
         return Err(FieldError::finding("table", defect, "give a time and a rate in each row").in_file(file));
     };
     let in_unit = |heading: &str, values: &[f64], own: &str| {
@@ -53,13 +54,13 @@ fn rows(text: &str, file: &Path, rate_unit: &str) -> Result<Vec<(f64, f64)>, Fie
             return refused(
                 format!("{} in row {}", values[row], row + 1),
                 "a finite number",
-                "leave the row out or mend it",
+                "correct the row, or leave it out",
             );
         }
         let given = name_and_unit(heading).map_or(own, |(_, unit)| unit);
         match if given == own { Some(1.0) } else { unit::factor(given, own) } {
             Some(factor) => Ok(values.iter().map(|value| value * factor).collect::<Vec<f64>>()),
-            None => refused(format!("[{given}]"), &format!("a unit of the kind of [{own}]"), "mend the heading"),
+            None => refused(format!("[{given}]"), &format!("a unit that converts to [{own}]"), "correct the unit"),
         }
     };
     let (times, rates) = (in_unit(&headings[0], times, "s")?, in_unit(&headings[1], rates, rate_unit)?);
@@ -90,12 +91,15 @@ mod tests {
         let read = |text: &str| rows(text, Path::new("a.csv"), "kg/s").map_err(|error| error.to_string());
         for (text, said) in [
             ("t,q\n0,1\n1\n", "a.csv: `line 3`: 1 columns"),
-            ("t,q\n# a note\n0,one\n", "a.csv: `line 3` is \"one\" in column q"),
-            ("t\n0\n", "a.csv: `table`: 1 columns; give"),
-            ("t,q\n", "a.csv: `line 1` is without numbers"),
+            ("t,q\n# a note\n0,one\n", "a.csv: `line 3`: \"one\" in column q"),
+            ("t\n0\n", "a.csv: `table`: 1 columns instead of 2; give"),
+            ("t,q\n", "a.csv: `line 1`: no table of numbers"),
             ("t,q\n0,inf\n", "a.csv: `q` is inf in row 1, but must be a finite number"),
-            ("t [furlong],q\n0,1\n", "a.csv: `t [furlong]` is [furlong], but must be a unit of the kind of [s]"),
-            ("t,q [kg/(m s)]\n0,1\n", "a.csv: `q [kg/(m s)]` is [kg/(m s)], but must be a unit of the kind of [kg/s]"),
+            ("t [furlong],q\n0,1\n", "a.csv: `t [furlong]` is [furlong], but must be a unit that converts to [s]"),
+            (
+                "t,q [kg/(m s)]\n0,1\n",
+                "a.csv: `q [kg/(m s)]` is [kg/(m s)], but must be a unit that converts to [kg/s]",
+            ),
         ] {
             assert!(read(text).is_err_and(|message| message.starts_with(said)), "{said}");
         }

@@ -33,7 +33,7 @@ pub struct ExternalData {
 /// A column that a case can use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExternalColumn {
-    /// Its name.
+    /// Name of the column in a submission.
     pub name: &'static str,
     /// SI unit, `-` for none.
     pub unit: &'static str,
@@ -86,13 +86,14 @@ impl ExternalSchema {
     ) -> Result<&'static ExternalColumn, FieldError> {
         items.iter().find(|item| item.name == name).ok_or_else(|| {
             let names: Vec<&str> = items.iter().map(|item| item.name).collect();
-            let (rule, remedy) = if names.is_empty() {
-                ("absent: this case takes no such files".to_owned(), "give single numbers".to_owned())
+            let (defect, remedy) = if names.is_empty() {
+                ("not used by this case", "leave it out, and give single numbers under `numbers`".to_owned())
             } else {
                 let question = did_you_mean(&nearest(name, names.iter().copied()));
-                (format!("one of {}", names.join(", ")), format!("{question}`bagnold judge --template` explains them"))
+                let known = names.join(", ");
+                ("unknown name", format!("{question}known are {known}; `bagnold judge --template` explains them"))
             };
-            FieldError::new(&format!("{field}.{name}"), "given", &rule, &remedy)
+            FieldError::finding(&format!("{field}.{name}"), defect, &remedy)
         })
     }
 }
@@ -242,7 +243,7 @@ impl ParticleFrame {
     /// A column that was not given.
     pub fn needed(&self, name: &str, remedy: &str) -> Result<&[f64], FieldError> {
         let column = self.columns.get(name).map(Vec::as_slice);
-        column.ok_or_else(|| FieldError::new(&format!("particles.columns.{name}"), "missing", "given", remedy))
+        column.ok_or_else(|| FieldError::finding(&format!("particles.columns.{name}"), "missing", remedy))
     }
 }
 
@@ -260,11 +261,11 @@ mod tests {
             |items, name| ExternalSchema::find(items, "series.columns", name).expect_err("unknown").to_string();
         assert_eq!(
             message(ITEMS, "frnt"),
-            "`series.columns.frnt` is given, but must be one of front, height; did you mean `front`? `bagnold judge --template` explains them"
+            "`series.columns.frnt`: unknown name; did you mean `front`? known are front, height; `bagnold judge --template` explains them"
         );
         assert_eq!(
             message(&[], "front"),
-            "`series.columns.front` is given, but must be absent: this case takes no such files; give single numbers"
+            "`series.columns.front`: not used by this case; leave it out, and give single numbers under `numbers`"
         );
     }
 }

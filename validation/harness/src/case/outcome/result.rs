@@ -68,7 +68,7 @@ pub struct CaseResult {
     pub command: String,
     /// Judged and observed numbers in report order.
     pub metrics: Vec<Metric>,
-    /// Pictures.
+    /// Figures of the case.
     pub figures: Vec<Figure>,
     /// Moving pictures.
     pub animations: Vec<Animation>,

@@ -86,21 +86,22 @@ impl Estimate {
         }
     }
 
-    /// The limit that it breaks: the rule, completing "must be …", and what to do about it.
+    /// The limit that it breaks: the defect, as it follows the value in the message, and the remedy.
     pub(in crate::case) fn problem(&self, limits: &Limits) -> Option<(String, String)> {
         if self.excess(limits) <= 1.0 {
             return None;
         }
-        let (most, needed) = if self.memory(1) > limits.memory || !self.memory(1).is_finite() {
+        let (needed, most, option) = if self.memory(1) > limits.memory || !self.memory(1).is_finite() {
             let (particles, memory) = (rounded(self.all_particles), rounded(self.memory(1) / GIBIBYTE));
-            let needed = format!("{particles} particles need {memory} GiB: reduce it or raise --most-memory");
-            (format!("{} GiB of memory", rounded(limits.memory / GIBIBYTE)), needed)
+            let needed = format!("{memory} GiB of memory for {particles} particles");
+            (needed, format!("{} GiB", rounded(limits.memory / GIBIBYTE)), "--most-memory")
         } else {
             let (steps, hours) = (rounded(self.particle_steps), rounded(self.core_seconds / 3600.0));
-            let needed = format!("{steps} particle-steps need {hours} core hours: reduce it or raise --most-hours");
-            (format!("{} core hours", rounded(limits.core_hours)), needed)
+            let needed = format!("{hours} core hours for {steps} particle-steps");
+            (needed, format!("{} core hours", rounded(limits.core_hours)), "--most-hours")
         };
-        Some((format!("less demanding (limit {most})"), needed))
+        let remedy = format!("choose a cheaper value, or raise {option}");
+        Some((format!("needs {needed}, above the limit of {most}"), remedy))
     }
 }
 
@@ -137,7 +138,7 @@ fn of_environment(name: &str) -> Option<f64> {
     let text = std::env::var(name).ok().filter(|text| !text.is_empty())?;
     let number = text.trim().parse::<f64>().ok().filter(|number| *number > 0.0);
     if number.is_none() {
-        tracing::warn!("`{name}` is {text}, but must be a positive number; it is left out of account");
+        tracing::warn!("`{name}` is {text}, but must be a positive number; it is ignored");
     }
     number
 }
@@ -186,12 +187,12 @@ mod tests {
     #[test]
     fn excessive_size_is_refused_with_its_number() {
         assert_eq!(of(1e5, 3600.0).problem(&LIMITS), None);
-        let (rule, remedy) = of(1e8, 1.0).problem(&LIMITS).expect("too large");
-        assert_eq!(rule, "less demanding (limit 16 GiB of memory)");
-        assert!(remedy.starts_with("1.0e8 particles need 340 GiB"), "{remedy}");
-        let (rule, remedy) = of(1.0, 1e9).problem(&LIMITS).expect("too long");
-        assert_eq!(rule, "less demanding (limit 100 core hours)");
-        assert!(remedy.starts_with("1.0e15 particle-steps need 2.8e5 core hours"), "{remedy}");
+        let (defect, remedy) = of(1e8, 1.0).problem(&LIMITS).expect("too large");
+        assert_eq!(defect, "needs 340 GiB of memory for 1.0e8 particles, above the limit of 16 GiB");
+        assert!(remedy.ends_with("raise --most-memory"), "{remedy}");
+        let (defect, remedy) = of(1.0, 1e9).problem(&LIMITS).expect("too long");
+        assert_eq!(defect, "needs 2.8e5 core hours for 1.0e15 particle-steps, above the limit of 100 core hours");
+        assert!(remedy.ends_with("raise --most-hours"), "{remedy}");
         for cost in [f64::NAN, f64::INFINITY] {
             assert!(of(cost, 1.0).problem(&LIMITS).is_some() && of(1.0, cost).problem(&LIMITS).is_some());
             assert!(of(1.0, 1.0).and(of(cost, cost)).problem(&LIMITS).is_some());

@@ -88,13 +88,13 @@ impl<'a, F: Flow> Guard<'a, F> {
     /// Check of memory and time against the limits; the field is the one that, as the tier has it, saves most.
     fn check_cost(&self, estimate: &Estimate) -> Result<(), ParameterError> {
         let limits = &self.changes.limits;
-        let Some((rule, remedy)) = estimate.problem(limits) else { return Ok(()) };
+        let Some((defect, remedy)) = estimate.problem(limits) else { return Ok(()) };
         let (changed, tier) = (self.changed(), ("tier".to_owned(), self.tier.name().to_owned()));
         let saved = changed.iter().filter_map(|field| Some((self.without(&field.0)?.excess(limits), field)));
         let saved = saved.filter(|(excess, _)| *excess < estimate.excess(limits));
         let most = saved.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, field)| field);
         let (field, value) = most.or(changed.first()).unwrap_or(&tier);
-        Err(ParameterError::field(field, value, &rule, &remedy))
+        Err(ParameterError::field(field, format!("{value} {defect}"), "", &remedy))
     }
 }
 
@@ -139,7 +139,7 @@ mod tests {
     fn two_runs_of_one_name_are_refused() {
         assert_eq!(
             refused(&["vary=[{path=\"grain.damping\", name=\"steps\", values=[1.0, 2.0]}]"], LIMITS),
-            "`vary` is of two runs \"steps=20\", but must be a list of runs with unlike names; give what is varied another `name`"
+            "`vary`: two runs are named \"steps=20\"; give one of the varied parameters another `name`"
         );
     }
 
@@ -148,8 +148,8 @@ mod tests {
         let message = refused(&["grain.damping=2.0", "steps=900000"], Limits { core_hours: 1e-5, ..LIMITS });
         assert_eq!(
             message,
-            "`steps` is 900000, but must be less demanding (limit 0.00001 core hours); 9.0e5 \
-             particle-steps need 0.00017 core hours: reduce it or raise --most-hours"
+            "`steps`: 900000 needs 0.00017 core hours for 9.0e5 particle-steps, above the limit of 0.00001 core hours; \
+             choose a cheaper value, or raise --most-hours"
         );
         assert_eq!(refused(&["steps=900000"], LIMITS), "taken");
     }
@@ -179,7 +179,7 @@ mod tests {
         let unnamed = || ParameterError::Interrupted;
         let changed = [("grain.damping".to_owned(), "2.0".to_owned())];
         let message = with_changed(unnamed(), &changed).to_string();
-        assert!(message.ends_with("; what differs from the tier: `grain.damping` is 2.0"), "{message}");
+        assert!(message.ends_with("; changed from the tier's defaults: `grain.damping` is 2.0"), "{message}");
         assert_eq!(with_changed(unnamed(), &[]).to_string(), unnamed().to_string());
         let named = ParameterError::field("grain", 1, "2", "change it");
         assert!(!with_changed(named, &changed).to_string().contains("differs"));

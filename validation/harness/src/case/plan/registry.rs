@@ -61,7 +61,10 @@ mod tests {
         );
         assert_eq!(
             message("pendulum.toml"),
-            Some("`pendulum.toml`: unknown case; that is a file, which `bagnold run` reads; `bagnold list` prints all cases".to_owned())
+            Some(
+                "`pendulum.toml`: unknown case; run a file with `bagnold run`; `bagnold list` prints all cases"
+                    .to_owned()
+            )
         );
         assert_eq!(message("zzz"), Some("`zzz`: unknown case; `bagnold list` prints all cases".to_owned()));
     }

@@ -25,7 +25,7 @@ pub struct Request<'a> {
 pub struct Requested {
     /// The case's runs.
     pub prepared: Box<dyn PreparedCase>,
-    /// Its tier.
+    /// Tier of the prepared case.
     pub tier: Tier,
     /// Files with measurements that its file names.
     pub overlay: Vec<MeasuredFiles>,
@@ -78,12 +78,12 @@ pub(crate) fn only(
     let has = |asked: &Variant| variants.iter().any(|variant| variant.includes(asked));
     if let Some(missing) = asked.iter().find(|asked| !has(asked)) {
         let listed: Vec<String> = variants.iter().take(5).map(|variant| format!("\"{variant}\"")).collect();
-        let rule = format!("keys of a run of this case and tier, such as {}", listed.join(", "));
+        let rule = format!("keys and values of a run of this case and tier, such as {}", listed.join(", "));
         return Err(ParameterError::field(
             field,
             format!("\"{missing}\""),
             &rule,
-            "leave out keys to mean several runs",
+            "leave out keys to select several runs",
         ));
     }
     let runs: Vec<usize> =

@@ -198,7 +198,7 @@ where
         }
         None => {
             if let Some(reason) = refused {
-                progress.tell(&format!("begins anew: the finished run {reason}"));
+                progress.tell(&format!("simulated again from the start: the finished run {reason}"));
             }
             let simulation = match state {
                 None => S::begin(scene(StartState::New).map_err(Into::into)?)?,
@@ -209,8 +209,8 @@ where
                     };
                     let (simulation, ..) = restore(&state.contents).map_err(refused)?;
                     if simulation.time() >= end {
-                        let rule = format!("beyond {} s, the time of the state", simulation.time());
-                        return Err(ParameterError::field("duration", end, &rule, "the clock of the state goes on"));
+                        let rule = format!("later than {} s, the time of the stored state", simulation.time());
+                        return Err(ParameterError::field("duration", format!("{end} s"), &rule, "raise it"));
                     }
                     simulation
                 }

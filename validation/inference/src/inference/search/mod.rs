@@ -91,17 +91,17 @@ impl fmt::Display for Termination {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
             Self::Converged => "converged: no step would change χ² by more than the tolerance",
-            Self::BudgetSpent => "budget spent: the best point so far need not be the minimum; allow more evaluations",
+            Self::BudgetSpent => "budget spent: the best point so far may not be the minimum; allow more evaluations",
             Self::Stalled => {
-                "stalled: χ² no longer falls although its slope says it should; the model may be noisy: `repeats = 3` takes means \
-                 over seeds"
+                "stalled: χ² does not decrease although its gradient is not zero; if the model is noisy, average over seeds \
+                 with `repeats = 3`"
             }
             Self::AtRest => {
-                "at rest: runs are too rough for shorter steps, but nothing about promises a notably lower χ²"
+                "at rest: runs scatter too much for shorter steps, and no notably lower χ² is expected nearby"
             }
             Self::Plateau => {
-                "on a plateau: no parameter changes the model at the best point, whose χ² is far above what the errors allow; move the \
-                 start or the ranges to where the model responds"
+                "on a plateau: no parameter changes the model at the best point, although its χ² is far too high; move the start or \
+                 the ranges to where the model responds"
             }
             Self::DesignDone => "done: all points of the design and the minimum of their polynomial are evaluated",
         })

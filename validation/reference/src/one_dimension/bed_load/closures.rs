@@ -54,21 +54,21 @@ pub struct Closures {
     #[schemars(transform = positive("give it in 1/s, such as 5e-3"))]
     pub regularisation_rate: f64,
     /// Solid fraction φ_max of grains without shear `[-]`.
-    #[schemars(transform = between(0.1, 0.74, "grains at rest fill 0.5 to 0.64 of the space"))]
+    #[schemars(transform = between(0.1, 0.74, "give 0.5 to 0.64, the share of the space that grains at rest fill"))]
     pub largest_fraction: f64,
     /// Dilation B in φ = φ_max/(1 + B I) `[-]`; 0 for none.
-    #[schemars(transform = between(0.0, 100.0, "grains loosen in shear: give B, such as 0.31, or 0 for grains that do not"))]
+    #[schemars(transform = between(0.0, 100.0, "give B, such as 0.31, or 0 for grains that do not dilate in shear"))]
     pub dilation: f64,
     /// Drag law; Gidaspow's jumps at φ = 0.2 and gives no steady state.
     pub drag: DragLaw,
     /// Mixing length.
     pub mixing_length: MixingLengthClosure,
     /// The constant κ of von Kármán `[-]`.
-    #[schemars(transform = positive("give κ, 0.41"))]
+    #[schemars(transform = positive("give von Kármán's constant, 0.41"))]
     pub karman: f64,
     /// Turbulent Schmidt number Sc of the grains `[-]`, eddy viscosity over the diffusivity of φ; 0 for grains that eddies
     /// do not carry.
-    #[schemars(transform = between(0.0, 10.0, "0.4 to 1 for suspensions, 0 for no dispersion"))]
+    #[schemars(transform = between(0.0, 10.0, "give 0.4 to 1 for suspensions, or 0 for no dispersion"))]
     pub turbulent_schmidt: f64,
     /// Roughness of resting grains; only the integral mixing length knows it.
     pub grain_roughness: GrainRoughness,
@@ -142,7 +142,7 @@ impl Closures {
         let pole = self.suspension_viscosity.pole_problem().map(|problem| problem.within("suspension_viscosity"));
         let grows = self.limiting_friction > self.static_friction;
         let (rule, remedy) =
-            ("greater than the static friction", "friction grows from μ_s at rest to μ_2 in fast shear");
+            ("greater than the static friction", "raise it: friction grows from μ_s at rest to μ_2 in fast shear");
         let friction =
             || (!grows).then(|| ParameterProblem::new("limiting_friction", self.limiting_friction, rule, remedy));
         pole.or_else(friction)

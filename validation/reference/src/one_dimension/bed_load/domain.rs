@@ -81,7 +81,7 @@ impl Stream {
             let free = self.slope * self.flow_depth / held;
             format!("deepen the bed to more than {:.4} m, or choose a gentler slope", free + self.held_depth)
         } else {
-            "no bed of these grains lies on such a slope: choose a gentler one".to_owned()
+            "choose a gentler slope, on which a bed of these grains is stable".to_owned()
         };
         Err(LayerError::BedSlides { slope: self.slope, limit, remedy })
     }

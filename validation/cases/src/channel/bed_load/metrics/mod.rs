@@ -90,7 +90,7 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Metric> {
     let held_out = held_out(records);
     if held_out.is_empty() && records.iter().any(|(run, _)| run.formulation == BedLoadFormulation::Fit) {
         tracing::warn!(
-            "nothing is fitted: runs of `fit` need two yield stresses, two viscosities and three slopes, each with each"
+            "nothing is fitted: runs of `fit` need all combinations of two yield stresses, two viscosities and three slopes"
         );
     }
     metrics.extend(held_out.iter().flat_map(of_fit));

@@ -24,8 +24,7 @@ pub(super) fn say_what_is_missing(records: &[BedLoadRecord]) {
     let mut stabilised = records.iter().filter(|(run, _)| run.formulation == BedLoadFormulation::Stabilised).peekable();
     if stabilised.peek().is_some() && !stabilised.any(|(run, _)| is_stabilised(run, GENTLE)) {
         tracing::warn!(
-            "no run of `stabilised` has the slope {GENTLE} that the paper's statements are of: its profile and transport are \
-             observed, but not judged"
+            "no run of `stabilised` has the slope {GENTLE} of the paper's statements: its profile and transport get no verdict"
         );
     }
 }

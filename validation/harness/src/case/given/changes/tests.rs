@@ -127,7 +127,7 @@ fn wrong_values_are_refused_with_the_type_they_should_have() {
     );
     assert_eq!(
         message("rows = -3", &[]),
-        "layer.toml: `rows` is -3, but must be a whole number in digits alone, not negative; `bagnold show layer` prints a valid value"
+        "layer.toml: `rows` is -3, but must be a whole number without sign, decimal point or exponent; `bagnold show layer` prints a valid value"
     );
     assert_eq!(
         message("grains.packing = \"latice\"", &[]),
@@ -155,7 +155,7 @@ fn wrong_values_are_refused_with_the_type_they_should_have() {
 fn settings_of_a_wrong_form_path_or_type_are_refused() {
     assert_eq!(
         message("", &["depth"]),
-        "`--set depth`: `path` is \"depth\", but must be the dotted path of a parameter, followed by `=` and a value; such as `angles=[22.0, 24.0]`"
+        "`--set depth`: `path` is \"depth\", but must be the dotted path of a parameter, followed by `=` and a value; write it as in `angles=[22.0, 24.0]`"
     );
     assert_eq!(
         message("", &["grains.diametre=0.002"]),
@@ -167,11 +167,11 @@ fn settings_of_a_wrong_form_path_or_type_are_refused() {
     );
     assert_eq!(
         message("", &["rows=many"]),
-        "`--set rows=many`: `rows` is many, but must be a whole number in digits alone, not negative; `bagnold show layer` prints a valid value"
+        "`--set rows=many`: `rows` is many, but must be a whole number without sign, decimal point or exponent; `bagnold show layer` prints a valid value"
     );
     assert_eq!(
         message("", &["rows=1\ndepth=3"]),
-        "`--set rows=1\\ndepth=3`: `rows` is 1\\ndepth=3, but must be a whole number in digits alone, not negative; `bagnold show layer` prints a valid value"
+        "`--set rows=1\\ndepth=3`: `rows` is 1\\ndepth=3, but must be a whole number without sign, decimal point or exponent; `bagnold show layer` prints a valid value"
     );
 }
 
@@ -238,11 +238,11 @@ fn a_friction_angle_stands_for_its_tangent_where_the_law_has_one() {
     );
     assert_eq!(
         message("material = { friction_angle = 20, static_friction = 0.4 }", &[]),
-        "layer.toml: `material.friction_angle` is 20, but must be alone: it is the angle whose tangent is `static_friction`, which is given too, as 0.4; leave one of the two out"
+        "layer.toml: `material.friction_angle`: given together with `static_friction` (0.4), the tangent of the angle; leave one of the two out"
     );
     assert_eq!(
         message("material = { law = \"newtonian\", viscosity = 1, friction_angle = 20 }", &[]),
-        "layer.toml: `material.friction_angle`: unknown field; did you mean `material.viscosity`? `bagnold show layer` prints all fields"
+        "layer.toml: `material.friction_angle`: unknown field; `bagnold show layer` prints all fields"
     );
 }
 
