@@ -47,7 +47,7 @@ pub(crate) fn run<'py>(
                 [("only", only.is_empty()), ("overlay", overlay.is_empty())].iter().find(|of| !of.1)
             {
                 let remedy = "leave it out, or run the case that the study is based on";
-                return Err(ParameterError::field(option, "given", "absent for a study", remedy).into());
+                return Err(ParameterError::field(option, "not available for a study", "", remedy).into());
             }
             let study = Study::read(path, *REGISTRY)?;
             let cases = study.prepare(*REGISTRY, tier, &settings, Limits::of(None, None))?;

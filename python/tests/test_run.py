@@ -123,7 +123,7 @@ def test_a_study_is_run_and_judged_from_its_file(folder):
     metrics = bagnold.run("heights.toml").metrics
     fronts = metrics[metrics["name"] == "front_at_the_end"]
     assert list(fronts["verdict"]) == ["pass", "pass"], fronts
-    with pytest.raises(bagnold.Refused, match="`only` is given, but must be absent for a study"):
+    with pytest.raises(bagnold.Refused, match="`only`: not available for a study"):
         bagnold.run("heights.toml", only="spacing=0.02")
 
 

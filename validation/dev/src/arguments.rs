@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     pub(crate) verbosity: Verbosity,
 }
 
-/// The commands.
+/// Commands of `bagnold-dev`.
 #[derive(Debug, Subcommand)]
 pub(crate) enum DevCommand {
     /// Run every case briefly and compare the final states with the committed hashes.
@@ -97,7 +97,7 @@ pub(crate) struct ControlsArguments {
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
 pub(crate) struct MutateArguments {
-    /// Another action.
+    /// Other actions on mutations.
     #[command(subcommand)]
     pub(crate) action: Option<MutateAction>,
     /// Comma-separated names of mutations [default: all].
@@ -169,7 +169,7 @@ pub(crate) enum MutateAction {
         /// Change one parameter; may be repeated.
         #[arg(long = "set", value_name = "path=value")]
         settings: Vec<String>,
-        /// File to write what the case said to, as `bagnold-dev mutate` reads it, instead of printing it.
+        /// File for the output of the case in the form that `bagnold-dev mutate` reads, instead of printing it.
         #[arg(long, value_name = "FILE", hide = true)]
         result: Option<PathBuf>,
         /// Threads to use [default: all cores].

@@ -65,11 +65,11 @@ pub(crate) fn verify(command: &VerifyArguments, session: &mut Session<'_>) -> Re
         write_whole(file, format!("{HEADER}{text}").as_bytes()).map_err(|error| FileError::unwritable(file, &error))?;
     }
     if differing.is_empty() {
-        session.say(&format!("{} cases end in the same bits on 1, 2 and 3 threads\n", list.runs.len()));
+        session.say(&format!("{} cases: final states bitwise identical on 1, 2 and 3 threads\n", list.runs.len()));
         return Ok(Exit::Held);
     }
-    let remedy = "a change of numbers, a compiler or a machine that rounds otherwise";
-    session.say(&format!("other bits: {} ({remedy})\n", differing.join(", ")));
+    let remedy = "numbers were changed, or compiler or machine round differently";
+    session.say(&format!("final states differ: {} ({remedy})\n", differing.join(", ")));
     Ok(Exit::GateFailed)
 }
 
@@ -82,10 +82,10 @@ fn read(file: Option<&Path>) -> Result<ShortRuns, DevError> {
     let list: ShortRuns = toml::from_str(&text).map_err(|error| FileError::Damaged {
         file: path.to_owned(),
         reason: error.message().to_owned(),
-        remedy: "it has [[runs]] with case, settings and state_hash".to_owned(),
+        remedy: "write [[runs]] with case, settings and state_hash".to_owned(),
     })?;
     if list.runs.is_empty() {
-        let error = FieldError::new("runs", "empty", "at least one run", "add a `[[runs]]` table");
+        let error = FieldError::finding("runs", "no run", "add a `[[runs]]` table");
         return Err(ParameterError::from(error.in_file(path)).into());
     }
     Ok(list)
@@ -123,7 +123,7 @@ mod tests {
             .expect("writable");
         let (exit, text) = run(&file, false);
         assert_eq!(exit, Exit::GateFailed);
-        assert!(text.starts_with("differs  pendulum: ") && text.contains("other bits: pendulum ("), "{text}");
+        assert!(text.starts_with("differs  pendulum: ") && text.contains("final states differ: pendulum ("), "{text}");
         assert_eq!(run(&file, true).0, Exit::Held);
         let (exit, text) = run(&file, false);
         assert_eq!(exit, Exit::Held, "{text}");

@@ -165,7 +165,7 @@ impl Baseline {
         read.made_at(case, commit);
         for (key, entry) in lines {
             if read.values.insert(key.clone(), entry).is_some() {
-                return Err(refuse(format!("`{} | {}` stands there twice", key.metric, key.variant)));
+                return Err(refuse(format!("`{} | {}` is listed twice", key.metric, key.variant)));
             }
         }
         Ok(read)

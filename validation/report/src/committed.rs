@@ -91,8 +91,8 @@ impl CommittedValues {
         let path = self.folder().join(EXPECTED_FAILURES);
         let former = self.folder().join(KNOWN_FAILURES);
         if former.exists() {
-            let defect = format!("its name is {EXPECTED_FAILURES} from now on");
-            return Err(FieldError::finding(&shown(&former), defect, "rename it").into());
+            let remedy = format!("rename it to {EXPECTED_FAILURES}");
+            return Err(FieldError::finding(&shown(&former), "outdated name", &remedy).into());
         }
         if self.is_own(&path) { ExpectedFailures::read(&path) } else { ExpectedFailures::shipped() }
     }

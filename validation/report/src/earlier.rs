@@ -28,7 +28,7 @@ impl Baseline {
                 serde_json::from_str(&text).map_err(|error| refused(&path, &error.to_string()))?;
             if document.tier != tier {
                 let (its, own) = (document.tier.name(), tier.name());
-                return Err(refused(&path, &format!("it is of the {its} tier, not of the {own} tier")).into());
+                return Err(refused(&path, &format!("a report of the {its} tier, not of the {own} tier")).into());
             }
             found = true;
             baseline.made_at(case, &document.provenance.commit);
@@ -39,7 +39,7 @@ impl Baseline {
             }
         }
         if !found {
-            return Err(refused(&folder.join("cases"), "it holds none of the cases").into());
+            return Err(refused(&folder.join("cases"), "none of the cases is there").into());
         }
         Ok(baseline)
     }

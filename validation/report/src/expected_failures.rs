@@ -17,7 +17,7 @@ pub struct ExpectedFailure {
     pub case: String,
     /// Metric name.
     pub metric: String,
-    /// Variant.
+    /// Run whose gate is expected to fail.
     pub variant: Variant,
     /// The best value that was reached, in the metric's unit.
     pub best_value: f64,
@@ -119,7 +119,7 @@ impl ExpectedFailures {
             let defect = if failure.reason.trim().is_empty() || failure.date.trim().is_empty() {
                 "needs a date and a reason"
             } else if others.iter().any(|other| failure.reason.contains(other)) {
-                "points to another entry, but is shown apart from it: say the reason again"
+                "refers to another entry, but is shown without it: repeat the reason"
             } else if !failure.best_value.is_finite() {
                 "needs a finite best_value"
             } else if list.failures[..index].iter().any(|other| other.key() == failure.key()) {

@@ -149,7 +149,7 @@ impl<'r> JudgedMetric<'r> {
 pub struct JudgedCase<'r> {
     /// The case.
     pub case: &'r CaseReport,
-    /// Its metrics.
+    /// Metrics of the case with their verdicts.
     pub metrics: Vec<JudgedMetric<'r>>,
     /// Baseline values that the case no longer measures.
     pub vanished: Vec<MetricKey>,

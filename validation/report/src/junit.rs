@@ -23,7 +23,7 @@ pub fn check_junit(path: &Path) -> Result<(), FieldError> {
         return Ok(());
     }
     let remedy = "name another file: its contents would be lost";
-    Err(FieldError::new("--junit", path.display(), "a new file, or one of JUnit's XML", remedy))
+    Err(FieldError::new("--junit", path.display(), "a new file, or an earlier JUnit XML file", remedy))
 }
 
 /// Writes the error of a command that gives no verdicts.

@@ -29,9 +29,9 @@ const EXAMPLES: &str = "Examples:
   bagnold run bagnold --tier paper --threads 4 one case at full resolution
   bagnold show film > my.toml                  parameters to edit
   bagnold run my.toml --out results            run the edited file
-  bagnold report                               all cases, judged on one page: reports/index.html
-  bagnold judge mine.toml                      results of another code under the same gates
-  bagnold grains slopes.toml                   grains of another code: fields, and points of a friction law
+  bagnold report                               all cases with their verdicts: reports/index.html
+  bagnold judge mine.toml                      results of another code, judged by the same gates
+  bagnold grains slopes.toml                   grains of a DEM code, averaged to fields and points of a friction law
   bagnold examples                             sample calibrations, scenes, sweeps
 
 Exit codes: 0 no new failure, 1 a new failure or a gate not judged, 2 bad input, 3 a run diverged.";
@@ -43,18 +43,18 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run column-planar --only material=sand,aspect_ratio=3
   bagnold run film --json > metrics.json
   bagnold run film --overlay mine.csv
-  bagnold run bagnold --panel velocity-profile:a --figure 85mm,9pt,300dpi    one panel for a column of a journal
+  bagnold run bagnold --panel velocity-profile:a --figure 85mm,9pt,300dpi    one panel at the width of a journal column
   bagnold run column-planar --only material=sand,aspect_ratio=3 --output-every 0.01
   bagnold run my-study.toml
-  bagnold run scene.toml --set duration=2.0    continue a finished scene of a shorter duration
+  bagnold run scene.toml --set duration=2.0    continue a finished, shorter run of a scene
   bagnold run tilted.toml --from STATE         start from the state of another run, such as a prepared bed
 
-A longer run of a scene, a collapse or a channel continues a finished one; if it starts anew, it says why.
-A file names its case with `case = \"film\"`; the tier supplies the fields that it omits. `bagnold show film`
-prints a complete file. Values of --set are TOML; dots reach fields inside tables.
+A longer run of a scene, a collapse or a channel continues a finished one, or prints why it starts from the beginning.
+A case file names its case with `case = \"film\"`; fields left out have the defaults of the tier. `bagnold show film`
+prints a complete file. Values of --set are TOML; a dot separates a table from its field.
 
-Measurements for --overlay are named like the axes of a figure, with units; repeats replace uncertainties. `# limit:` is the
-largest root mean square residual; without it nothing is judged. `# figure:`, `# panel:` and `# curve:` select one of several:
+Columns of an --overlay file are named like the axes of a figure, with units; repeats replace uncertainties. `# limit:` is the
+largest root mean square residual, needed for a verdict. `# figure:`, `# panel:` and `# curve:` select one of several:
 
   # source: own flume, May
   # limit: 2
@@ -75,7 +75,7 @@ A study is a file with `study = \"NAME\"`. It names a base and the checks of its
   reason = \"two standard uncertainties of the camera\"
 
 --output-every, or [output] with `every` and `fields` in a file, writes states/RUN.pvd and states/RUN-walls.pvd; such
-runs start anew.
+runs always start from the beginning.
 The folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
 snapshots/*.pvd for ParaView.
 
@@ -85,8 +85,8 @@ const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
   bagnold report --tier paper --cases film,bagnold --out paper-report
   bagnold report --against yesterday --deny moved
-  bagnold report --set material.reference_inertia=0.3      in every case that has it
-  bagnold report --figure 85mm,9pt,300dpi      figures for a column of a journal
+  bagnold report --set material.reference_inertia=0.3      change the parameter in every case that has it
+  bagnold report --figure 85mm,9pt,300dpi      figures at the width of a journal column
   bagnold report --suite my-flume
 
 The report is one self-contained folder. Its index.html links to a page of every case; failures come first.
@@ -100,7 +100,7 @@ const CALIBRATE_EXAMPLES: &str = "Examples:
   bagnold calibrate my.toml --out mine
   bagnold run mine/calibrated.toml
 
-A file with one parameter and one fitted value; [[hold_out]] has the form of [[fit]]:
+A file with one parameter and one fitted value; data to predict, not to fit, stand under [[hold_out]] in the same form:
 
   title = \"static friction of our sand\"
 
@@ -116,15 +116,15 @@ A file with one parameter and one fitted value; [[hold_out]] has the form of [[f
             value = 1.2, unit = \"-\", uncertainty = 0.1, source = \"own, May\" }]
 
 data may also name a CSV: { table = \"profile-…\", x = \"y [m]\", y = \"u [m/s]\", file = \"mine.csv\" }.
-A block with `law = \"mu-i\"` in place of `case` fits the law to points (I, mu) of a file, without a simulation:
-{ file = \"points.csv\" } as `bagnold grains` writes it. Paths are then those of the law, such as \"static_friction\".
+With `law = \"mu-i\"` instead of `case`, a block fits that law to points (I, mu) without a simulation. Its data are
+{ file = \"points.csv\" }, as `bagnold grains` writes them, and paths are those of the law, such as \"static_friction\".
 The folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml, or law.toml with draws.";
 
 /// Simulates granular and sediment flows by smoothed particle hydrodynamics and judges them against exact solutions and experiments.
 #[derive(Debug, Parser)]
 #[command(name = "bagnold", version, after_help = EXAMPLES, propagate_version = true)]
 pub struct Arguments {
-    /// Command.
+    /// Command to run, such as `report`.
     #[command(subcommand)]
     pub command: Command,
     /// Amount of output.
@@ -143,7 +143,7 @@ pub struct Verbosity {
     pub quiet: bool,
 }
 
-/// The commands.
+/// Commands of `bagnold`.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// List the cases and studies.
@@ -158,7 +158,7 @@ pub enum Command {
     Judge(JudgeArguments),
     /// Judge the stored results of other codes and write one page.
     League(LeagueArguments),
-    /// Average grains of another code over the depth: fields, and points of a friction law.
+    /// Average the grains of a DEM code to fields over the depth and points of a friction law.
     Grains(GrainsArguments),
     /// Write the inputs that another code needs to run a case.
     Export(ExportArguments),
@@ -172,9 +172,9 @@ pub enum Command {
     Completions(CompletionsArguments),
     /// Simulate all cases and write a validation report.
     Report(ReportArguments),
-    /// Fit parameters to data and judge them on validation data.
+    /// Fit parameters to data, and compare the prediction with held-out data.
     Calibrate(CalibrateArguments),
-    /// Predict the bed load of a flume or a collapse, with its interval.
+    /// Predict the bed load of a flume, or a collapse, with a 95 % interval.
     Predict(PredictArguments),
     /// Simulate cases at many parameter values, locally or on a cluster.
     Sweep(Box<SweepArguments>),
@@ -199,7 +199,7 @@ pub struct ShowArguments {
     /// Name of a case, see `bagnold list`, or a case file, which is completed.
     #[arg(value_name = "CASE|FILE.toml")]
     pub case: String,
-    /// Tier: the cost of the case [default: the file's, else quick].
+    /// Resolution and run time of the case [default: the file's, else quick].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
     /// Change one parameter, such as a law; may be repeated.
@@ -217,25 +217,25 @@ pub struct RunArguments {
     /// Name of a case, or a TOML file of a case or study.
     #[arg(value_name = "CASE|FILE.toml")]
     pub target: String,
-    /// Tier: the cost of the case [default: the file's, else quick].
+    /// Resolution and run time of the case [default: the file's, else quick].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
     /// Change one parameter; may be repeated.
     #[arg(long = "set", value_name = "path=value")]
     pub settings: Vec<String>,
-    /// Run several values of a parameter in place of the runs of the tier; repeated, all combinations.
+    /// Run several values of a parameter instead of the tier's own runs; repeat it for all combinations.
     #[arg(long, value_name = "path=A,B,C")]
     pub vary: Vec<String>,
-    /// Start a scene from a state that another run has left, or from the last state of a folder of results.
+    /// Start a scene from the stored state of another run, or from the last state in a folder of results.
     #[arg(long, value_name = "STATE")]
     pub from: Option<PathBuf>,
     /// Select runs by their keys, such as material=sand,aspect_ratio=3; may be repeated.
     #[arg(long, value_name = "key=value,…")]
     pub only: Vec<crate::metric::Variant>,
-    /// Draw measurements into the figure with their axes and compute the difference; may be repeated.
+    /// Draw measurements into the figure with the same axes, and compute the difference; may be repeated.
     #[arg(long, value_name = "FILE.csv")]
     pub overlay: Vec<PathBuf>,
-    /// Also draw one panel of a figure as a figure of its own, such as deposit:b; may be repeated.
+    /// Also draw one panel of a figure as a separate figure, such as deposit:b; may be repeated.
     #[arg(long = "panel", value_name = "FIGURE:LETTER")]
     pub panels: Vec<String>,
     /// Write the particles of every run at this interval of simulated time, for ParaView (states/*.pvd).
@@ -256,7 +256,7 @@ pub struct RunArguments {
     /// Also write the verdicts as JUnit XML, one test per gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
-    /// Reject implausible values and other warnings of the input.
+    /// Reject an input with warnings, such as implausible values.
     #[arg(long)]
     pub deny_warnings: bool,
     /// Print wall time, processor time and peak memory on standard error.
@@ -280,7 +280,7 @@ pub struct RunArguments {
   bagnold completions bash > ~/.local/share/bash-completion/completions/bagnold
   bagnold completions man > ~/.local/share/man/man1/bagnold.1
 
-A new shell completes, if it has the package bash-completion; else add this line to ~/.bashrc:
+New shells complete commands if the package bash-completion is installed; otherwise add this line to ~/.bashrc:
   . ~/.local/share/bash-completion/completions/bagnold
 Zsh reads `_bagnold` in a folder of $fpath, fish reads ~/.config/fish/completions/bagnold.fish. `man bagnold` finds the page
 if ~/.local/bin is in the PATH.")]
@@ -294,7 +294,7 @@ pub struct CompletionsArguments {
 #[derive(Debug, Args)]
 #[command(after_help = REPORT_EXAMPLES)]
 pub struct ReportArguments {
-    /// Tier: the cost of each case [default: quick, or the study's].
+    /// Resolution and run time of each case [default: quick, or the study's].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
     /// Comma-separated names of cases [default: all].
@@ -316,7 +316,7 @@ pub struct ReportArguments {
     /// Compare with the folder of an earlier report instead of the baseline.
     #[arg(long, value_name = "DIR", conflicts_with = "accept")]
     pub against: Option<PathBuf>,
-    /// Also end with exit code 1 in this case.
+    /// Also end with exit code 1 for this finding.
     #[arg(long, value_enum, value_name = "WHAT", conflicts_with = "accept")]
     pub deny: Option<Denied>,
     /// Also write the verdicts as JUnit XML, one test per gate.

@@ -76,7 +76,7 @@ fn text(outcome: &CalibrationResult) -> String {
     for trial in &outcome.trials {
         let optional = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), aligned_digits);
         text += &format!(
-            "{}: χ² {}, held out {}, weight {}{}\n",
+            "{}: χ² {}, held-out χ² {}, weight {}{}\n",
             trial.name,
             optional(trial.chi_squared),
             optional(trial.hold_out_chi_squared),

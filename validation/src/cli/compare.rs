@@ -22,7 +22,7 @@ pub(super) fn compare(command: &CompareArguments, session: &mut Session<'_>) -> 
         whole(folder).is_some_and(|folder| whole(&command.out) == Some(folder))
     };
     if let Some(folder) = command.folders.iter().find(same) {
-        let (rule, remedy) = ("another folder than those that are compared", "its contents would be replaced");
+        let (rule, remedy) = ("another folder than those compared", "name another one: its contents would be replaced");
         return Err(ParameterError::field("--out", folder.display(), rule, remedy).into());
     }
     if let Some((first, others)) = all.split_first().filter(|_| !command.across_gates) {
@@ -36,7 +36,7 @@ pub(super) fn compare(command: &CompareArguments, session: &mut Session<'_>) -> 
         session.say(&format!("parameter {}: {}\n", one.path, values.join(" → ")));
     }
     for PairedKey { case, key, values } in all.iter().flat_map(|results| &results.paired) {
-        session.say(&format!("{case}: runs with {key}={} beside those with {key}={}\n", values[1], values[0]));
+        session.say(&format!("{case}: runs with {key}={} compared with those with {key}={}\n", values[1], values[0]));
     }
     let numbers = compare::differences(&all);
     let (common, apart): (Vec<_>, Vec<_>) = numbers.iter().partition(|one| one.entries.iter().all(Option::is_some));
@@ -58,7 +58,7 @@ pub(super) fn compare(command: &CompareArguments, session: &mut Session<'_>) -> 
         all.split_first().map_or(0, |(first, others)| others.iter().map(|other| first.moved_limits(other)).sum());
     if limits > 0 {
         session.say(&format!(
-            "limits of {limits} gates differ: other versions of the gates, or limits that follow from the runs\n"
+            "limits of {limits} gates differ: the versions of the gates differ, or limits depend on the runs\n"
         ));
     }
     session.say(&format!("Report: {}\n", command.out.join("index.html").display()));

@@ -83,7 +83,7 @@ mod tests {
         let begin = Instant::now();
         let counted =
             |done| Counted { what: "runs".to_owned(), doing: "a".to_owned(), all: 4, done, usual: 0, before: 2, begin };
-        assert_eq!(counted(2).text(), "2/4 runs  time left not known yet  a");
+        assert_eq!(counted(2).text(), "2/4 runs  remaining time not known yet  a");
     }
 
     #[test]

@@ -23,14 +23,14 @@ pub(super) fn find(
             FILES.iter().map(|(name, _)| *name).filter(has_deck).filter_map(|name| name.split('/').next()).collect();
         let codes: Vec<&str> = codes.into_iter().collect();
         let rule = match codes[..] {
-            [] => format!("absent: no code has a deck of {}", case.name()),
+            [] => format!("left out, because no code has a deck of {}", case.name()),
             _ => format!("a code with a deck of {} at the tier quick: {}", case.name(), codes.join(", ")),
         };
-        return refuse(&rule, "leave it out, and write the deck from case.toml and definitions.md");
+        return refuse(&rule, "leave it out, and write your own deck from case.toml and definitions.md");
     }
     let today = format!("inputs = \"{}\"", judge::inputs_of(case, tier)?);
     if files.iter().any(|(name, text)| *name == "submission.toml" && !text.contains(&today)) {
-        return refuse(&format!("a deck of today's {today}"), "compare case.toml with the numbers of the deck");
+        return refuse(&format!("a code with a deck of {today}"), "compare case.toml with the numbers of the deck");
     }
     Ok(files)
 }

@@ -98,7 +98,7 @@ impl<W: Work> Drop for Display<W> {
 /// The time left where `part` of the work has been done in `elapsed` and `rest` of it is left, both `[-]`; never none.
 pub(super) fn time_left(part: f64, rest: f64, elapsed: Duration) -> String {
     if part < LEAST_PART || elapsed < Duration::from_secs(1) {
-        return "time left not known yet".to_owned();
+        return "remaining time not known yet".to_owned();
     }
     let seconds = (elapsed.as_secs_f64() * rest / part).clamp(1.0, 1e9);
     format!("{} left", HumanDuration(Duration::from_secs_f64(seconds)))
@@ -111,8 +111,8 @@ mod tests {
     #[test]
     fn the_time_left_is_never_none() {
         let minute = Duration::from_secs(60);
-        assert_eq!(time_left(0.0, 1.0, minute), "time left not known yet");
-        assert_eq!(time_left(0.5, 0.5, Duration::ZERO), "time left not known yet");
+        assert_eq!(time_left(0.0, 1.0, minute), "remaining time not known yet");
+        assert_eq!(time_left(0.5, 0.5, Duration::ZERO), "remaining time not known yet");
         assert_eq!(time_left(0.25, 0.75, minute), "3 minutes left");
         for rest in [0.0, 1e-300, 1e-6, -1.0] {
             assert_eq!(time_left(1.0, rest, minute), "1 second left");

@@ -22,7 +22,7 @@ pub enum ProgramError {
     Tool(#[from] ToolError),
     /// Standard output cannot be written.
     #[error(
-        "standard output: cannot be written ({reason}); free space, or send it elsewhere: what goes into folders was written"
+        "standard output: cannot be written ({reason}); free space, or redirect it; the folders of results were written"
     )]
     Output {
         /// The system's reason.
@@ -30,7 +30,7 @@ pub enum ProgramError {
     },
     /// Warnings that `--deny-warnings` does not let pass.
     #[error(
-        "{count} of the warnings above concern the input, and `--deny-warnings` rejects them; correct the input, or leave the option out"
+        "`--deny-warnings` rejects the input because of {count} of the warnings above; correct the input, or leave the option out"
     )]
     Cautions {
         /// Their number.

@@ -49,7 +49,7 @@ pub(super) fn league(command: &LeagueArguments, session: &mut Session<'_>) -> Re
     let folder = command.folder.clone().unwrap_or_else(own);
     if command.folder.is_none() && !folder.is_dir() {
         let (rule, remedy) =
-            ("a folder", "stored results of other codes are in a checkout of bagnold; name their folder");
+            ("an existing folder", "name the folder of results; a checkout of bagnold has them in validation/league");
         return Err(ParameterError::field("FOLDER", folder.display(), rule, remedy).into());
     }
     let files = league::submissions(&folder)?;
@@ -82,7 +82,7 @@ fn verdicts(judgement: &CodeComparison) -> String {
             judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
         let table = report::of_metrics(failed, terminal::shape());
         let nothing = if tally.all() > 0 && tally.of(Severity::NotJudged) == tally.all() {
-            "no gate was judged: the page names the data that each needs\n"
+            "no gate was judged; the page lists the data that each gate needs\n"
         } else {
             ""
         };

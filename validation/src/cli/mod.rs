@@ -91,7 +91,7 @@ fn refuse_in_junit(words: &[OsString], message: &str) {
 
 /// What a command works with.
 pub struct Session<'a> {
-    /// The cases.
+    /// Cases and studies that the program knows.
     pub registry: Registry,
     /// Whether nothing but results and errors is said.
     pub quiet: bool,
@@ -177,7 +177,7 @@ fn interrupted(signal: Signal, error: &str) -> String {
     if whole > 0 {
         text += &format!(", and a checkpoint of {} in progress", runs(whole));
     }
-    text += "; the same command resumes from there (without --fresh, which begins anew)";
+    text += "; the same command resumes from there (without --fresh, which starts again)";
     if lost > 0 {
         text += &format!("\n{} could not be kept at this moment and will lose some time", runs(lost));
     }

@@ -14,10 +14,8 @@ pub(super) fn add_panels(figures: &mut Vec<Figure>, wanted: &[String]) -> Result
             let titled = |(own, figure): &(String, Figure)| format!("{own} ({})", title(&figure.panels[0]));
             let names: Vec<String> = alone.iter().map(titled).collect();
             let (rule, remedy) = match names[..] {
-                [] => ("absent where each figure has one panel".to_owned(), "leave it out: all figures are drawn"),
-                _ => {
-                    (format!("one of {}", names.join(", ")), "name a panel; a figure of one panel is drawn without it")
-                }
+                [] => ("left out, because each figure has one panel".to_owned(), "leave it out: all figures are drawn"),
+                _ => (format!("one of {}", names.join(", ")), "name a panel; figures of one panel are always drawn"),
             };
             return Err(ParameterError::field("--panel", name, &rule, remedy));
         };
@@ -83,9 +81,9 @@ mod tests {
         let message = add_panels(&mut figures, &["deposit:c".to_owned()]).expect_err("unknown").to_string();
         assert_eq!(
             message,
-            "`--panel` is deposit:c, but must be one of deposit:a (low), deposit:b (high); name a panel; a figure of one panel is drawn without it"
+            "`--panel` is deposit:c, but must be one of deposit:a (low), deposit:b (high); name a panel; figures of one panel are always drawn"
         );
         let message = add_panels(&mut figures[1..2].to_vec(), &["single:a".to_owned()]).expect_err("one").to_string();
-        assert!(message.contains("absent where each figure has one panel"), "{message}");
+        assert!(message.contains("left out, because each figure has one panel"), "{message}");
     }
 }

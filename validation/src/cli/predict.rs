@@ -1,4 +1,4 @@
-//! `bagnold predict`: a quantity of a user's own flow with its interval, and whether it lies inside of what was compared with measurements.
+//! `bagnold predict`: a quantity of a user's own flow with its interval, and whether it lies inside the range compared with measurements.
 
 use super::arguments::{BedLoadArguments, CollapseArguments, PredictAction, PredictArguments};
 use super::simulation::simulate_announced;
@@ -88,19 +88,19 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
     let both = |unit: f64| (of(own.transport * unit), within(own.interval, unit));
     let ((rate, interval), (dimensionless, own_interval)) = (both(unit), both(1.0));
     let mut text =
-        format!("bed load      {rate} kg/(m s); 95 % by closures and the scatter of measurements: {interval}\n");
+        format!("bed load      {rate} kg/(m s); 95 % interval from closures and the scatter of measurements: {interval}\n");
     text += &format!("              q* = {dimensionless} ({own_interval})\n");
     if let Some(width) = flume.width {
         let (rate, interval) = both(unit * width);
         text += &format!("in the flume  {rate} kg/s ({interval}) over {} m\n", of(width));
     }
     let ((steady, all), by_closures) = (own.draws, within(own.by_closures, unit));
-    text += &format!("closures      95 % of {steady} steady layers of {all} draws: {by_closures} kg/(m s)\n");
+    text += &format!("closures      95 % interval of {steady} steady layers from {all} draws: {by_closures} kg/(m s)\n");
     let measured = own.rates.as_ref().map_or_else(
-        || "fewer than ten runs at about this Shields number, so the scatter is that of all above 0.1".to_owned(),
+        || "fewer than ten runs near this Shields number; scatter of all runs above 0.1 is used".to_owned(),
         |rates| {
             let median = of(rates.median * own.formula * unit);
-            format!("{median} kg/(m s), median of {} runs at about this Shields number", rates.number)
+            format!("{median} kg/(m s), median of {} runs near this Shields number", rates.number)
         },
     );
     text += &format!("measured      {measured}; formula of Wong & Parker {} kg/(m s)\n", of(own.formula * unit));
@@ -108,16 +108,16 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
     text += &format!("Shields number {shields} at a mean velocity of {velocity} m/s\n");
     if flume.width.is_some() {
         let (bed, smooth) = (of(own.bed_share), of(own.smooth_bed_share));
-        text += &format!("side walls    the bed bears {bed} of ρ g h S (Vanoni & Brooks 1957, smooth walls); ");
-        text += &format!("if the bed were as smooth, {smooth} (Guo & Julien 2005)\n");
+        text += &format!("side walls    the bed carries {bed} of ρ g h S (Vanoni & Brooks 1957, smooth walls); ");
+        text += &format!("with a smooth bed, {smooth} (Guo & Julien 2005)\n");
     }
     if own.transport < LEAST_TRANSPORT {
-        text += &format!("no motion     q* is below {LEAST_TRANSPORT}, where motion begins: ");
-        text += "a bed at rest creeps by its regularisation\n";
+        text += &format!("no motion     q* is below {LEAST_TRANSPORT}, the threshold of motion; ");
+        text += "smaller values are creep of the regularised friction\n";
     }
     if own.outside.is_empty() {
-        text += "inside of what was compared with measurements\n";
+        text += "inside the range compared with measurements\n";
     }
-    text.extend(own.outside.iter().map(|part| format!("outside of what was compared with measurements: {part}\n")));
+    text.extend(own.outside.iter().map(|part| format!("outside the range compared with measurements: {part}\n")));
     text
 }

@@ -53,7 +53,7 @@ fn runs(results: &[CaseResult]) -> String {
         let RunSummary { variant, wall_seconds, particles, steps, .. } = run;
         let cost = run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), |cost| format!("{cost:.3}"));
         let line = format!(
-            "  {wall_seconds:8.2} s  {particles:>8} particles  {steps:>9} steps  {cost:>7} µs a particle and step  {case} {variant}"
+            "  {wall_seconds:8.2} s  {particles:>8} particles  {steps:>9} steps  {cost:>7} µs per particle and step  {case} {variant}"
         );
         line.trim_end().to_owned() + "\n"
     };
@@ -63,7 +63,7 @@ fn runs(results: &[CaseResult]) -> String {
         text += &format!("  {others:8.2} s  in {} other runs\n", rows.len() - LISTED);
     }
     if !stored.is_empty() {
-        text += &format!("  {} runs came from the store\n", stored.len());
+        text += &format!("  {} runs were read from the store\n", stored.len());
     }
     text
 }

@@ -29,7 +29,7 @@ pub(super) fn report(
         Ok(process) => process,
         Err(earlier) => {
             if !quiet {
-                tell("nothing has changed since this report was made; `--fresh` makes it anew");
+                tell("nothing has changed since this report was written; `--fresh` computes it again");
             }
             say(output, &earlier.text);
             return Ok(earlier.exit);
@@ -131,7 +131,7 @@ fn prepare(
 ) -> Result<(Vec<Box<dyn PreparedCase>>, ChangedCases), ParameterError> {
     for (place, name) in command.cases.iter().enumerate() {
         if command.cases[..place].iter().any(|other| other.trim() == name.trim()) {
-            let remedy = "name each case once: every case has one page";
+            let remedy = "name each case once";
             return Err(ParameterError::field("--cases", name.trim(), "unique", remedy));
         }
     }

@@ -26,7 +26,7 @@ fn start_setting(given: &Path, command: &RunArguments, registry: Registry) -> Re
             "--from",
             format!("\"{}\": {defect}", given.display()),
             "",
-            "give the file that `bagnold run` names as a state near its end; with --fresh it simulates and names it again",
+            "give the state file that `bagnold run` names at the end of its output; `--fresh` writes it again",
         )
     };
     let file = if given.is_dir() { newest_state(given, command, registry).map_err(refused)? } else { given.to_owned() };
@@ -42,7 +42,7 @@ fn newest_state(folder: &Path, command: &RunArguments, registry: Registry) -> Re
     let case = folder.join("case.toml");
     if !case.is_file() {
         let newest = Checkpoints::at(folder, "", None).newest();
-        return newest.ok_or_else(|| "the folder holds neither a state nor the case.toml of a run".to_owned());
+        return newest.ok_or_else(|| "the folder contains neither a state nor the case.toml of a run".to_owned());
     }
     let target = case.display().to_string();
     let request = Request { target: &target, tier: None, settings: &[], only: &[], limits: command.allowance.limits() };
@@ -51,8 +51,8 @@ fn newest_state(folder: &Path, command: &RunArguments, registry: Registry) -> Re
         // --fresh must not discard the state that it starts from
         1 => prepared
             .kept_state(0, &command.work.store_for(StorePolicy::Use).with_ends())
-            .ok_or_else(|| "the store keeps no state of its run any more, or never of this case".to_owned()),
-        runs => Err(format!("the folder is of {runs} runs, so that it does not say which one continues")),
+            .ok_or_else(|| "no state of this run is stored".to_owned()),
+        runs => Err(format!("the folder has {runs} runs, and only a single one can continue")),
     }
 }
 
@@ -78,7 +78,7 @@ pub(super) fn run(
     let Requested { prepared, tier, overlay, output: wanted, changed, has_own_parameters } =
         request.prepare(registry).map_err(|error| match (error, &command.from) {
             (error, Some(file)) if error.is_of_setting() && error.field_path() == Some("from") => {
-                let rule = "left out for this case: only scenes start from a state";
+                let rule = "left out for this case, because only scenes start from a state";
                 ParameterError::field("--from", file.display(), rule, "change the parameters of the case instead")
             }
             (error, _) => error,

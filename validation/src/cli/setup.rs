@@ -49,12 +49,12 @@ fn draw(show: &ShowArguments, picture: &Path, session: &mut Session<'_>) -> Resu
     let ending = picture.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
     if !["png", "svg"].contains(&ending.as_str()) {
         let rule = "a file name that ends with .png or .svg";
-        return Err(refused("--picture", picture.display().to_string(), rule, "such as --picture setup.png"));
+        return Err(refused("--picture", picture.display().to_string(), rule, "write such as --picture setup.png"));
     }
     let prepared = request(show).prepare(session.registry)?.prepared;
     let Some(figure) = prepared.setup() else {
         let rule = "a scene, or the file of one";
-        return Err(refused("--picture", show.case.clone(), rule, "other cases make their starts themselves"));
+        return Err(refused("--picture", show.case.clone(), rule, "leave it out: other cases build their own start"));
     };
     let format = FigureFormat::SCREEN;
     let drawn = render::svg(&figure, format)

@@ -78,7 +78,7 @@ fn refuse_what_cases_take(command: &RunArguments) -> Result<(), ParameterError> 
         ("--output-every", command.output_every.is_some(), "run the case that the study is based on"),
     ];
     match options.into_iter().find(|(_, given, _)| *given) {
-        Some((option, _, remedy)) => Err(ParameterError::field(option, "given", "absent beside a study", remedy)),
+        Some((option, _, remedy)) => Err(ParameterError::field(option, "not available for a study", "", remedy)),
         None => Ok(()),
     }
 }

@@ -41,8 +41,7 @@ fn begin(file: &Path, command: &SweepArguments, session: &mut Session<'_>) -> Re
     match command.engine {
         Engine::Local => {
             if sweep.missing().is_empty() {
-                session
-                    .say(&format!("all {} runs were done before: nothing was run; {ANEW}\n", manifest.entries.len()));
+                session.say(&format!("all {} runs are finished already; {ANEW}\n", manifest.entries.len()));
                 return finish(&sweep, session);
             }
             let watch = SweepBar::new(&sweep, session.quiet);
@@ -102,13 +101,13 @@ fn finish(sweep: &SweepFolder, session: &mut Session<'_>) -> Result<Exit, Progra
     let all = sweep.manifest().entries.len();
     let mut text = format!("{done} of {all} runs done");
     if failed > 0 {
-        text += &format!(", {failed} failed (failures.csv says why)");
+        text += &format!(", {failed} failed (reasons in failures.csv)");
     }
     if missing > 0 {
         text += &format!(", {missing} missing");
     }
     if without_value > 0 {
-        text += &format!("; {without_value} values are not numbers (column `reason` of results.csv says why)");
+        text += &format!("; {without_value} values are not numbers (column `reason` of results.csv)");
     }
     session.say(&format!("{text}\nwritten to {}\n", sweep.path().join("results.csv").display()));
     Ok(match (missing, failed) {

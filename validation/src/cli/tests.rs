@@ -118,7 +118,7 @@ fn bad_parameters_are_refused_before_anything_is_written() {
     );
     assert_eq!(
         refused("case = \"pendulum\"\nslope_angle = 90", &[mine]),
-        format!("{path}: `slope_angle` is 90, but must be inside (−90°, 90°); give it in degrees")
+        format!("{path}: `slope_angle` is 90, but must be above −90° and below 90°; give it in degrees")
     );
     assert_eq!(
         refused("case = \"pendulum\"\nslope_angel = 9", &[mine]),
@@ -133,7 +133,7 @@ fn bad_parameters_are_refused_before_anything_is_written() {
     // The file is not to blame for what --set gives.
     assert_eq!(
         refused(SHOWN, &[mine, "--set", "slope_angle=-90"]),
-        "`slope_angle` is -90, but must be inside (−90°, 90°); give it in degrees"
+        "`slope_angle` is -90, but must be above −90° and below 90°; give it in degrees"
     );
     assert_eq!(
         refused(SHOWN, &["pendulum", "--set", "grain.diameter=small"]),

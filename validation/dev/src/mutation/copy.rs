@@ -76,11 +76,11 @@ pub enum CopyError {
     /// A source in which no expression can be found.
     #[error("{}:{line}: {message}; mutations by rule need sources that compile", .file.display())]
     Syntax {
-        /// The source.
+        /// Source file with the fault.
         file: PathBuf,
-        /// Its line.
+        /// Line of the fault, from 1.
         line: usize,
-        /// The defect.
+        /// Message of the parser.
         message: String,
     },
     /// The compiler refuses it.

@@ -38,7 +38,7 @@ pub enum Detection {
     Test(String),
     /// Values that moved by more than they may, and no gate among them.
     Snapshot,
-    /// Nobody.
+    /// No gate, stop or baseline value kills the mutation.
     Nothing,
 }
 
@@ -53,7 +53,7 @@ impl Detection {
 /// Outcome of one mutation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MutationOutcome {
-    /// The error.
+    /// Mutation that was run.
     pub error: Mutation,
     /// The cases that ran, in order.
     pub cases: Vec<String>,

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 const JUDGE_EXAMPLES: &str = "Examples:
   bagnold judge --template column-planar > mine.toml    a commented file to fill in
-  bagnold judge mine.toml                               your code beside ours, under the same gates
+  bagnold judge mine.toml                               your code and ours, judged by the same gates
   bagnold judge mine.toml theirs.toml --out compared    several codes in one table
 
 A submission names the case, the code, its runs and the data of each run: particles at several times (tables or VTK),
@@ -17,18 +17,18 @@ Exit codes: 0 all gates with data pass, 1 one fails or none has data, 2 bad inpu
 
 const LEAGUE_EXAMPLES: &str = "Examples:
   bagnold league                                        the stored results of other codes, on one page
-  bagnold league my-codes --out compared                a folder of your own
+  bagnold league my-codes --out compared                the results in your folder
 
 The page has a row per code and a column per case, and for each case all metrics with the distance from their reference.
-From three codes of one law on it has their standard deviation beside the limit. The folder also receives an archive of each
-submission, CODE-CASE.tar.
+For three or more codes with one law, the page also shows their standard deviation and the limit. The folder also receives an
+archive of each submission, CODE-CASE.tar.
 
 Exit codes: 0 judged, whatever the verdicts, 2 bad input, 3 a run of ours diverged.";
 
 const EXPORT_EXAMPLES: &str = "Examples:
   bagnold export column-planar --out for-my-code
   bagnold export bagnold --tier paper --out for-my-code
-  bagnold export film --for openfoam --out film         also deck/run.sh and the matching submission.toml
+  bagnold export film --for openfoam --out film         also writes deck/run.sh and its submission.toml
 
 The folder receives case.toml (geometry, material), boundary.csv and start.csv (boundary conditions and start of each run),
 reference/ (exact and measured curves), definitions.md (laws, limits) and submission.toml for `bagnold judge`. --simulate adds particles/ (initial particles as CSV and VTU) and
@@ -41,10 +41,10 @@ pub struct JudgeArguments {
     /// Submissions, one TOML file per code.
     #[arg(value_name = "FILE.toml", required_unless_present = "template")]
     pub files: Vec<PathBuf>,
-    /// Print a commented submission for a case instead.
+    /// Print a commented submission file for this case, to fill in.
     #[arg(long, value_name = "CASE", conflicts_with_all = ["files", "out", "junit"])]
     pub template: Option<String>,
-    /// Tier of the printed submission.
+    /// Resolution and run time of the runs in the printed submission.
     #[arg(long, value_enum, default_value_t = Tier::Quick, requires = "template")]
     pub tier: Tier,
     /// Folder to write [default: reports/judged/CASE].
@@ -62,7 +62,7 @@ pub struct JudgeArguments {
 #[derive(Debug, Args)]
 #[command(after_help = LEAGUE_EXAMPLES)]
 pub struct LeagueArguments {
-    /// Folder with a submission per code and case, CODE/CASE/submission.toml [default: validation/league of the checkout].
+    /// Folder with one submission per code and case, CODE/CASE/submission.toml [default: validation/league of the checkout].
     pub folder: Option<PathBuf>,
     /// Folder to write.
     #[arg(long, value_name = "DIR", default_value = "reports/league")]
@@ -76,9 +76,9 @@ pub struct LeagueArguments {
 #[derive(Debug, Args)]
 #[command(after_help = EXPORT_EXAMPLES)]
 pub struct ExportArguments {
-    /// Name of a case.
+    /// Name of a case, see `bagnold list`.
     pub case: String,
-    /// Tier of its runs.
+    /// Resolution and run time of the runs.
     #[arg(long, value_enum, default_value_t = Tier::Quick)]
     pub tier: Tier,
     /// Folder to write.
@@ -98,16 +98,16 @@ pub struct ExportArguments {
 const GRAINS_EXAMPLES: &str = "Examples:
   bagnold examples
   bagnold grains examples/grains/slopes.toml --out slopes
-  bagnold calibrate examples/grains/law.toml --out law      the law from slopes/points.csv
+  bagnold calibrate examples/grains/law.toml --out law      fit a law to slopes/points.csv
 
-A plan names runs, their geometry, files and columns: examples/grains/slopes.toml, `bagnold schema grains`.
+A plan lists runs with their geometry, files and columns; see examples/grains/slopes.toml and `bagnold schema grains`.
 The folder receives fields-1.csv, fields-2.csv, …, points.csv and figures/.";
 
 /// `bagnold grains`
 #[derive(Debug, Args)]
 #[command(after_help = GRAINS_EXAMPLES)]
 pub struct GrainsArguments {
-    /// TOML file with runs, files and columns.
+    /// TOML file that lists the runs of the DEM code with their dump files and columns.
     #[arg(value_name = "FILE.toml")]
     pub file: PathBuf,
     /// Folder to write [default: reports/grains/FILE].
@@ -119,7 +119,7 @@ const COMPARE_EXAMPLES: &str = "Examples:
   bagnold run bagnold --out before
   bagnold run bagnold --set numerics.hourglass=0.1 --out after
   bagnold compare before after --out compared
-  bagnold compare report-of-may reports --out compared     two reports, number by number
+  bagnold compare report-of-may reports --out compared     compare the numbers of two reports
 
 For folders of `bagnold run`, profiles and histories are drawn into one figure. For reports, numbers are compared.
 The folder receives index.html, differences.json and figures/.
@@ -139,7 +139,7 @@ pub struct CompareArguments {
     /// End with exit code 1 if a number differs by more than its tolerance.
     #[arg(long)]
     pub deny_differences: bool,
-    /// Compare results of the same parameters whose gates have other limits.
+    /// Also compare results whose gates have different limits.
     #[arg(long)]
     pub across_gates: bool,
 }

@@ -15,7 +15,7 @@ solution, case files and a README with the next steps.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct NewArguments {
-    /// Content of the crate.
+    /// Kind of crate to write: a law or a case.
     #[command(subcommand)]
     pub what: NewCrate,
 }

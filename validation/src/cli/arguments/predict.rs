@@ -7,8 +7,8 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "Example:
   bagnold predict bed-load --grain-diameter 0.002 --slope 0.015 --depth 0.1 --width 0.3
 
-A steady layer over the depth, with closures of the literature, gives the transport. The interval consists of draws of the closures
-from their ranges and of the scatter of measured runs at about the same Shields number.";
+The transport is that of a steady one-dimensional layer with closures from the literature. The interval combines draws of the
+closures from their ranges with the scatter of measured runs at about the same Shields number.";
 
 const COLLAPSE_EXAMPLES: &str = "Example:
   bagnold predict column-planar --law law/law.toml --set half_width=0.08 --set solid_fraction=0.76 --out column
@@ -20,12 +20,12 @@ Measurements stand below `run_out [-],run_out uncertainty [-]`, or repeats below
 /// `bagnold predict`
 #[derive(Debug, Args)]
 pub struct PredictArguments {
-    /// What is predicted.
+    /// Quantity to predict.
     #[command(subcommand)]
     pub action: PredictAction,
 }
 
-/// Predictions.
+/// Quantities that can be predicted.
 #[derive(Debug, Subcommand)]
 pub enum PredictAction {
     /// Predict the bed load of a steady stream in a flume.
@@ -76,16 +76,16 @@ pub struct BedLoadArguments {
     /// Grain density [kg/m³].
     #[arg(long, value_name = "KG/M³", default_value = "2650", value_parser = density)]
     pub grain_density: f64,
-    /// Slope of the energy line [-].
+    /// Slope of the energy line as a tangent [-], 0.015 for 1.5 %.
     #[arg(long, value_name = "TAN", value_parser = slope)]
     pub slope: f64,
     /// Depth of the water [m].
     #[arg(long, value_name = "M", value_parser = length)]
     pub depth: f64,
-    /// Width between smooth side walls [m]; none without this option.
+    /// Width between smooth side walls [m]; without this option the flume has no side walls.
     #[arg(long, value_name = "M", value_parser = length)]
     pub width: Option<f64>,
-    /// Number of draws of the closures.
+    /// Number of random draws of the closures.
     #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u16).range(8..=4096))]
     pub draws: u16,
 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// `bagnold store`
 #[derive(Debug, Args)]
 pub struct StoreArguments {
-    /// Command.
+    /// Action on stored results.
     #[command(subcommand)]
     pub action: StoreAction,
     /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout, else the

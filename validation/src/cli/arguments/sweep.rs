@@ -5,7 +5,7 @@ use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
 const SWEEP_EXAMPLES: &str = "Examples:
-  bagnold sweep viscosity.toml --out viscosity        here
+  bagnold sweep viscosity.toml --out viscosity        on this machine
   bagnold sweep viscosity.toml --out /shared/viscosity --engine slurm --partition short --time 00:30:00 --throttle 50
   bagnold sweep collect /shared/viscosity --resubmit
 
@@ -32,7 +32,7 @@ pub struct SweepArguments {
     /// Action on an existing sweep.
     #[command(subcommand)]
     pub action: Option<SweepAction>,
-    /// TOML file with cases, parameters and points.
+    /// TOML file with cases, varied parameters and their values.
     #[arg(value_name = "FILE.toml", required = true)]
     pub file: Option<PathBuf>,
     /// Folder of the sweep [default: reports/sweeps/FILE].
@@ -41,7 +41,7 @@ pub struct SweepArguments {
     /// Execution engine.
     #[arg(long, value_enum, default_value_t = Engine::Local)]
     pub engine: Engine,
-    /// Request to Slurm.
+    /// Options for Slurm.
     #[command(flatten)]
     pub cluster: Cluster,
     /// Resource limits of each run.

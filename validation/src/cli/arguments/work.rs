@@ -27,7 +27,7 @@ pub struct ExecutionOptions {
     /// Threads to use [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Ignore stored and unfinished runs.
+    /// Simulate all runs again, without stored results and checkpoints.
     #[arg(long)]
     pub fresh: bool,
     /// Seconds between two checkpoints of a run [default: 60; up to 120 if a checkpoint costs over 1 %].

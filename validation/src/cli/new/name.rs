@@ -42,19 +42,19 @@ pub(super) fn check(name: &str, what: &NewCrate) -> Result<(), FieldError> {
     if !begins || !name.chars().all(is_plain) || name.ends_with(['-', '_']) || name.len() > LONGEST {
         return refused(
             "a crate's name of at most 64 lower-case letters, digits and hyphens that begins with a letter",
-            "call it such as my-law",
+            "choose such as my-law",
         );
     }
     let kebab = name.replace('_', "-");
     if KEYWORDS.contains(&name) || TAKEN.contains(&kebab.as_str()) {
-        return refused("no word of Rust and no crate that it needs itself", "add what kind of law or case it is");
+        return refused("neither a Rust keyword nor the name of a crate it uses", "add a word, such as my-law");
     }
     match what {
         NewCrate::Law(_) if built_in().contains(&name) => {
-            refused("no law that is there already", "give yours another name: both can then be compared")
+            refused("different from existing laws", "give yours another name: both can then be compared")
         }
         NewCrate::Case(_) if REGISTRY.iter().any(|case| case.name() == name) => {
-            refused("no case that is there already", "give yours another name; `bagnold list` prints those there are")
+            refused("different from existing cases", "give yours another name; `bagnold list` prints the existing ones")
         }
         _ => Ok(()),
     }

@@ -84,7 +84,7 @@ pub(super) fn assemble(
     let region = answer.explored.as_ref().map(|explored| &explored.region);
     let mut findings = findings::of(plan, answer, &fit);
     let hold_out = hold_out.unwrap_or_else(|reason| {
-        findings.push(format!("what was held out failed at the best parameters: {reason}"));
+        findings.push(format!("the held-out runs failed at the best parameters: {reason}"));
         Vec::new()
     });
     let correlation = region.map_or_else(Vec::new, |region| {

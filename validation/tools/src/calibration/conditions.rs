@@ -42,7 +42,7 @@ impl BlockParameters<'_> {
         });
         numbers.collect::<Option<Vec<f64>>>().ok_or_else(|| {
             let field = format!("{}.conditions", self.block.field);
-            let remedy = "name what is measured along, such as `slope_angle`";
+            let remedy = "name a numerical parameter, such as `slope_angle`";
             FieldError::new(&field, path, "a number or a list of numbers of the case", remedy)
                 .in_file(&plan.file)
                 .into()
@@ -62,8 +62,8 @@ pub(super) fn check(plan: &CalibrationPlan, known: &[BlockParameters<'_>]) -> Re
         for fitted in known.iter().filter(|known| !known.block.held_out && known.block.request.case == *case) {
             let Some(conditions) = &held_out.block.conditions else {
                 let field = format!("{}.conditions", held_out.block.field);
-                let remedy = "name the parameters that make it differ from what is fitted, such as conditions = [\"slope_angle\"]";
-                let rule = format!("given where `{}` has the same case", fitted.block.field);
+                let remedy = "name the parameters that differ from the fit, such as conditions = [\"slope_angle\"]";
+                let rule = format!("given, because `{}` has the same case", fitted.block.field);
                 return Err(FieldError::new(&field, "missing", &rule, remedy).in_file(&plan.file).into());
             };
             let (mut same, same_within) = (Vec::new(), held_out.block.same_within);
@@ -76,7 +76,7 @@ pub(super) fn check(plan: &CalibrationPlan, known: &[BlockParameters<'_>]) -> Re
             if same.len() == conditions.len() {
                 let (here, there, percent) = (&held_out.block.field, &fitted.block.field, 100.0 * same_within);
                 let same = format!("{}: the same within {percent} %", same.join(", "));
-                let remedy = "what is predicted must differ in its physics, so hold out other conditions";
+                let remedy = "hold out data of other conditions";
                 let reason = format!("`{here}` has the conditions of `{there}` ({same}); {remedy}");
                 return Err(ToolError::at(&plan.file, reason));
             }

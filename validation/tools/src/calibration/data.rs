@@ -65,17 +65,17 @@ impl DatumText {
         };
         match (&self.metric, &self.table) {
             (Some(_), Some(_)) | (None, None) => {
-                return wrong("metric", "missing or beside `table`", "the one or the other", "name what is compared");
+                return wrong("metric", "missing, or given together with `table`", "", "give one of the two");
             }
             (None, Some(_)) if self.x.is_none() || self.y.is_none() => {
-                return wrong("x", "missing, or y is", "given with y", "name the table's columns, such as \"y [m]\"");
+                return wrong("x", "this or `y` is missing", "", "name both columns of the table, such as \"y [m]\"");
             }
             _ => {}
         }
         for (name, column) in [("x", &self.x), ("y", &self.y)] {
             if let Some(column) = column.as_ref().filter(|column| !column.contains('[') || !column.ends_with(']')) {
-                let rule = "a column with its unit, as the table's heading has it";
-                return wrong(name, column, rule, "such as \"y [m]\"");
+                let rule = "a column with its unit, as in the heading of the table";
+                return wrong(name, column, rule, "write such as \"y [m]\"");
             }
         }
         let numbers = [("value", self.value), ("uncertainty", self.uncertainty), ("factor", self.factor)];
@@ -83,49 +83,48 @@ impl DatumText {
         let spare = numbers.iter().find(|(_, number)| number.is_some()).map(|(name, _)| *name);
         let spare = spare.or_else(|| words.iter().find(|(_, text)| text.is_some()).map(|(name, _)| *name));
         if self.metric.is_some() && (self.x.is_some() || self.y.is_some()) {
-            return wrong("x", "given", "absent with a metric", "x and y are columns of a table");
+            return wrong("x", "given together with a metric", "", "leave `x` and `y` out: they belong to a table");
         }
         if self.bins.is_some_and(|bins| !(1..=10_000).contains(&bins)) || (self.bins.is_some() && self.noise.is_none())
         {
-            let rule = "between 1 and 10000, and only with `noise`";
-            return wrong("bins", "given", rule, "bins are points of synthetic data");
+            let remedy = "give 1 to 10000 points of synthetic data with `noise`, or leave it out";
+            return wrong("bins", "out of range, or given without `noise`", "", remedy);
         }
         if let Some(noise) = self.noise {
             if !(noise > 0.0 && noise.is_finite()) {
-                return wrong("noise", &noise.to_string(), "positive", "0.01 is one per cent");
+                return wrong("noise", &noise.to_string(), "positive", "give such as 0.01 for 1 %");
             }
             if let Some(name) = spare.or_else(|| self.file.is_some().then_some("file")) {
-                let remedy = "synthetic data need no measurement: keep one of the two";
-                return wrong(name, "given", "absent with `noise`", remedy);
+                let remedy = "leave one of the two out: synthetic data have no measurement";
+                return wrong(name, "given together with `noise`", "", remedy);
             }
             return Ok(());
         }
         if self.file.is_some() {
             return match spare {
-                Some(name) => wrong(name, "given", "absent with a `file`", "the file says it"),
+                Some(name) => wrong(name, "given together with a `file`", "", "leave it out: the file contains it"),
                 None => Ok(()),
             };
         }
         let Some(value) = self.value else {
-            return wrong("value", "missing", "a number", "or name a `file`, or a `noise` for synthetic data");
+            return wrong("value", "missing", "", "give a number, a `file`, or a `noise` for synthetic data");
         };
         if self.table.is_some() {
-            return wrong("file", "missing", "given with a table", "a profile needs a CSV file, or a `noise`");
+            return wrong("file", "missing", "", "give a CSV file for the profile, or a `noise`");
         }
         if value.abs() > LARGEST || value.is_nan() {
             let remedy = "check the exponent and the unit";
             return wrong("value", &value.to_string(), "at most 1e30 in absolute value", remedy);
         }
         if self.unit.is_none() {
-            return wrong("unit", "missing", "the unit of the value", "such as unit = \"m\"; \"-\" for none");
+            return wrong("unit", "missing", "", "give it such as unit = \"m\", or \"-\" for none");
         }
         if self.source.is_none() {
-            return wrong("source", "missing", "the origin of the value", "such as source = \"own experiment, May\"");
+            return wrong("source", "missing", "", "give the origin, such as source = \"own experiment, May\"");
         }
         if self.uncertainty(value).is_none() {
-            let remedy = "give the standard deviation in the value's unit, or `factor` for one in logarithms; \
-                          Bagnold does not invent one";
-            return wrong("uncertainty", "missing or not positive", "positive", remedy);
+            let remedy = "give a standard deviation in the unit of the value, or `factor` for a logarithmic one";
+            return wrong("uncertainty", "missing or not positive", "", remedy);
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison
     let mut findings = of_search(plan, answer);
     match &answer.explored {
         None => {
-            findings.push("too few evaluations succeeded to say how well the data determine the parameters".to_owned());
+            findings.push("too few evaluations succeeded to estimate the uncertainty of the parameters".to_owned());
         }
         Some(explored) => {
             findings.extend(of_fit(plan.parameters.len(), explored.region.p_value, fit));
@@ -33,7 +33,7 @@ fn of_search(plan: &CalibrationPlan, answer: &Answer) -> Vec<String> {
     }
     if !search.every_start {
         findings.push(format!(
-            "the evaluations did not suffice to follow all {} other starts: there may be a lower minimum; allow more",
+            "not all {} other starts were followed, so there may be a lower minimum; allow more `evaluations`",
             plan.budget.starts
         ));
     }
@@ -43,7 +43,7 @@ fn of_search(plan: &CalibrationPlan, answer: &Answer) -> Vec<String> {
         let place: Vec<String> =
             names.map(|(parameter, value)| format!("`{}` = {}", parameter.name, short_digits(value, 3))).collect();
         findings.push(format!(
-            "a second minimum agrees with the data at 95 % too: {} with χ² {} beside {}",
+            "a second minimum also agrees with the data at 95 %: {} with χ² {}, the best has {}",
             place.join(", "),
             short_digits(minimum.chi_squared, 3),
             short_digits(search.chi_squared, 3)
@@ -57,7 +57,7 @@ fn of_fit(parameters: usize, p_value: Option<f64>, fit: &[DatumComparison]) -> V
     let mut findings = Vec::new();
     match p_value {
         Some(p) if p < UNLIKELY => findings.push(format!(
-            "the model does not explain the data within their uncertainties (p = {}): the model is wrong, a datum is, or the \
+            "the model does not explain the data within their uncertainties (p = {}): the model or a datum is wrong, or the \
              uncertainties are too small",
             short_digits(p, 2)
         )),
@@ -72,7 +72,7 @@ fn of_fit(parameters: usize, p_value: Option<f64>, fit: &[DatumComparison]) -> V
     for (place, distance) in outliers(&residuals, parameters) {
         let datum = &fit[place];
         findings.push(format!(
-            "the datum `{}` = {} {} of `{}` lies {} robust standard deviations from the others: an outlier; check it, or use \
+            "the datum `{}` = {} {} of `{}` is an outlier, {} robust standard deviations from the others; check it, or use \
              loss = \"huber\"",
             datum.label,
             short_digits(datum.datum, 4),
@@ -87,8 +87,8 @@ fn of_fit(parameters: usize, p_value: Option<f64>, fit: &[DatumComparison]) -> V
 /// Finding of correlated residuals, whose intervals are widened already.
 fn correlated(SerialCorrelation { coefficient, factor }: SerialCorrelation) -> String {
     format!(
-        "neighbouring residuals correlate ({}): the errors are not independent, or the model has another shape than the data; the \
-         intervals are {} times as wide as for independent errors",
+        "neighbouring residuals are correlated (coefficient {}): errors depend on each other, or model and data differ in shape; \
+         the intervals are therefore {} times as wide as for independent errors",
         short_digits(coefficient, 2),
         short_digits(factor, 2)
     )
@@ -136,7 +136,7 @@ fn of_region(plan: &CalibrationPlan, explored: &Explored) -> Vec<String> {
     }
     if !explored.joint_settled && explored.ends.iter().flatten().all(|end| end.settled) {
         findings.push(
-            "joint region not settled: the model disagrees with it at its edge; allow more `region_evaluations`"
+            "joint region not settled: the model and its emulator disagree at the edge; allow more `region_evaluations`"
                 .to_owned(),
         );
     }

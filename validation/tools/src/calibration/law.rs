@@ -55,8 +55,8 @@ impl DataBlock {
         if plan.choices.is_empty() && TRIED.iter().all(is_one) {
             return Ok(());
         }
-        let rule = "a law whose friction is a formula of the inertial number, without `choices`";
-        let remedy = "take mu-i, or fit a case that runs this law";
+        let rule = "a law whose friction depends on the inertial number only, without `choices`";
+        let remedy = "choose mu-i, or fit a case that runs this law";
         Err(FieldError::new(&format!("{}.law", self.field), &self.request.case, rule, remedy).into())
     }
 }

@@ -106,10 +106,10 @@ pub fn calibrate(
     outcome.simulations = std::fs::read_dir(&objective.folder).map_or(0, Iterator::count);
     let failed = outcome.evaluations.iter().filter(|evaluation| evaluation.chi_squared.is_none()).count();
     if let Some(reason) = objective.last_failure().filter(|_| failed > 0) {
-        let beyond = "lines and regions of agreement are the emulator's and may end where this holds";
+        let beyond = "beyond this, lines and regions of agreement are those of the emulator and may end early";
         outcome
             .findings
-            .push(format!("the box is cut: {failed} evaluations failed, the last with: {reason}; {beyond}"));
+            .push(format!("{failed} evaluations in the parameter ranges failed, the last with: {reason}; {beyond}"));
     }
     Ok(outcome)
 }
@@ -166,7 +166,7 @@ fn unsolved(error: SearchError<ToolError>, objective: &Objective<'_>) -> ToolErr
         SearchError::Model(error) => error,
         other => {
             let cause =
-                objective.last_failure().map_or_else(String::new, |reason| format!("; the last said: {reason}"));
+                objective.last_failure().map_or_else(String::new, |reason| format!("; the last failure: {reason}"));
             ToolError::at(&objective.plan.file, format!("{other}{cause}"))
         }
     }

@@ -226,8 +226,8 @@ impl Objective<'_> {
         if !made.is_empty() {
             let values = self.plan.parameters.iter().map(|parameter| parameter.truth).collect::<Option<Vec<f64>>>();
             let values = values.ok_or_else(|| {
-                let remedy = "give every parameter's `truth`, with which the synthetic data are made";
-                FieldError::new("parameters.truth", "missing", "given with a `noise`", remedy).in_file(&self.plan.file)
+                let remedy = "give the `truth` of every parameter, from which data with `noise` are generated";
+                FieldError::finding("parameters.truth", "missing", remedy).in_file(&self.plan.file)
             })?;
             let questions: Vec<Question> = made.iter().map(|&block| self.question(block, &values)).collect();
             truths.extend(made.into_iter().zip(self.ask(&questions)?));

@@ -58,14 +58,15 @@ impl Repeats {
     pub(super) fn checked(count: Option<usize>, path: Option<Paths>, choices: &[Choice]) -> Result<Self, FieldError> {
         let count = count.unwrap_or(1);
         if !(1..=MOST_REPEATS).contains(&count) {
-            let remedy = "3 to 5 seeds tell the scatter of runs";
+            let remedy = "give 3 to 5 seeds to estimate the scatter of runs";
             return Err(FieldError::new("repeats", count, &format!("between 1 and {MOST_REPEATS}"), remedy));
         }
         if count > 1 && !choices.is_empty() {
-            return Err(FieldError::new("repeats", count, "1 beside `choices`", "choices are tried once"));
+            return Err(FieldError::new("repeats", count, "1 with `choices`", "leave it out: choices are tried once"));
         }
         if count == 1 && path.is_some() {
-            return Err(FieldError::new("seed_path", "given", "absent without `repeats`", "say `repeats = 3`"));
+            let remedy = "add such as `repeats = 3`, or leave it out";
+            return Err(FieldError::finding("seed_path", "given without `repeats`", remedy));
         }
         Ok(Self { count, path: path.unwrap_or_else(|| Paths::Everywhere("seed".to_owned())) })
     }
@@ -78,7 +79,7 @@ impl Repeats {
     /// The words for a case that has no seed there.
     pub(super) fn seedless(&self, case: &str, path: &str) -> FieldError {
         let remedy = format!(
-            "`bagnold show {case}` prints its fields; where only some cases have seeds, say which: \
+            "`bagnold show {case}` prints its fields; if only some cases have seeds, name them: \
              seed_path = {{ column-planar = \"seed\" }}"
         );
         FieldError::new("seed_path", path, &format!("the path of a seed in `{case}`"), &remedy)
@@ -100,14 +101,14 @@ pub struct DataBlock {
     pub same_within: f64,
     /// Field of the block in the file, such as `fit[0]`.
     pub field: String,
-    /// The data.
+    /// Data that the block is compared with.
     pub(super) data: Vec<DatumText>,
 }
 
 /// A calibration that was read.
 #[derive(Debug, Clone)]
 pub struct CalibrationPlan {
-    /// The file.
+    /// File of the plan.
     pub file: PathBuf,
     /// Subject of the calibration, one line.
     pub title: String,
@@ -209,14 +210,14 @@ impl CalibrationPlan {
             }
             if self.parameters[..index].iter().any(|other| other.path == parameter.path) {
                 let field = format!("parameters[{index}].path");
-                return Err(FieldError::new(&field, "given twice", "unique", "vary a path once"));
+                return Err(FieldError::finding(&field, "given twice", "list each path once"));
             }
         }
         if let Paths::ByCase(paths) = &self.repeats.path {
             paths.keys().try_for_each(|case| known("seed_path".to_owned(), case))?;
             if !self.blocks.iter().any(|block| !block.held_out && paths.contains_key(&block.request.case)) {
                 let remedy = "name a case of `fit` with the path of its seed, or leave out `repeats`";
-                return Err(FieldError::new("seed_path", "of no fitted case", "that of one at least", remedy));
+                return Err(FieldError::finding("seed_path", "names no fitted case", remedy));
             }
         }
         for (index, choice) in self.choices.iter().enumerate() {

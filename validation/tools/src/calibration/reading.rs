@@ -48,9 +48,9 @@ impl CalibrationPlan {
             }
             let settings = self.settings(block, &start);
             if settings.is_empty() && self.choices.is_empty() {
-                let remedy = "let a parameter name a path of the case";
+                let remedy = "add a parameter with a path of this case, or leave the case out";
                 let field = format!("{}.case", block.field);
-                return Err(FieldError::new(&field, &block.request.case, "a case with a parameter", remedy)
+                return Err(FieldError::new(&field, &block.request.case, "a case with a calibrated parameter", remedy)
                     .in_file(&self.file)
                     .into());
             }
@@ -82,7 +82,7 @@ impl CalibrationPlan {
                 } else if let Some(field) = fitted.get(&identity) {
                     let run = format!("{} {}", prepared.name(), prepared.variant(run));
                     let both = format!("the run `{}` is in both `{field}` and `{}`", run.trim_end(), block.field);
-                    let remedy = "what is predicted must not be fitted, so take it out of one";
+                    let remedy = "remove it from one: held-out data must not be fitted";
                     return Err(ToolError::at(&self.file, format!("{both}; {remedy}")));
                 }
             }

@@ -17,7 +17,7 @@ pub struct DatumComparison {
     pub datum: f64,
     /// The datum less and plus its standard uncertainty.
     pub band: (f64, f64),
-    /// The model.
+    /// Value of the model at the best parameters.
     pub model: f64,
     /// Unit.
     pub unit: String,
@@ -137,7 +137,7 @@ pub struct ElementaryEffect {
 /// One choice of a bake-off.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ChoiceResult {
-    /// The choice.
+    /// Name of the choice.
     pub name: String,
     /// Fitted data.
     pub fit: Vec<DatumComparison>,
@@ -174,7 +174,7 @@ pub struct CalibrationResult {
     pub searched: usize,
     /// All evaluations by number: the search, then the ends of the intervals.
     pub evaluations: Vec<Evaluation>,
-    /// The parameters.
+    /// Estimates of the calibrated parameters.
     pub parameters: Vec<ParameterEstimate>,
     /// Minima in which descents ended, the lowest first.
     pub minima: Vec<Evaluation>,

@@ -21,7 +21,7 @@ pub struct ProfileLocation {
     pub x: String,
     /// Its column that is compared, with its unit.
     pub y: String,
-    /// Abscissa.
+    /// Abscissa of the datum, in the unit of column x.
     pub at: f64,
 }
 

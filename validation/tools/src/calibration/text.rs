@@ -141,8 +141,8 @@ impl CalibrationText {
         let repeats = Repeats::checked(self.repeats, self.seed_path.clone(), &self.choices)?;
         let method = match (self.method, levels.is_empty()) {
             (Some(method), false) if method != Method::Design => {
-                let remedy = "leave out the method or the levels";
-                return Err(FieldError::new("method", "given", "\"design\" with levels", remedy));
+                let remedy = "leave one of the two out, or set method = \"design\"";
+                return Err(FieldError::finding("method", "does not fit the `levels` of a grid", remedy));
             }
             (_, false) => Method::Design,
             (method, true) => method.unwrap_or(Method::TrustRegion),
@@ -174,19 +174,19 @@ impl CalibrationText {
     fn check_lists(&self) -> Result<(), FieldError> {
         if self.fit.is_empty() {
             let remedy = "add a `[[fit]]` table with case and data";
-            return Err(FieldError::new("fit", "empty", "at least one table", remedy));
+            return Err(FieldError::finding("fit", "no table", remedy));
         }
         if self.parameters.is_empty() == self.choices.is_empty() {
-            let (value, remedy) = if self.choices.is_empty() {
-                ("empty", "add a `[[parameters]]` table with path, lower and upper, or `[[choices]]`")
+            let (defect, remedy) = if self.choices.is_empty() {
+                ("no table", "add a `[[parameters]]` table with path, lower and upper, or `[[choices]]`")
             } else {
-                ("beside `choices`", "calibrate the parameters of each choice in a file of its own")
+                ("given together with `choices`", "calibrate the parameters of each choice in a separate file")
             };
-            return Err(FieldError::new("parameters", value, "at least one table, or none with a choice", remedy));
+            return Err(FieldError::finding("parameters", defect, remedy));
         }
         if self.choices.len() == 1 {
-            let remedy = "list what is compared";
-            return Err(FieldError::new("choices", "a single one", "two or more", remedy));
+            let remedy = "list two or more that are compared";
+            return Err(FieldError::finding("choices", "a single choice", remedy));
         }
         Ok(())
     }
@@ -197,7 +197,7 @@ impl CalibrationText {
             let parameter = text.checked(&format!("parameters[{index}]"))?;
             if parameters.iter().any(|other| other.name == parameter.name) {
                 let field = format!("parameters[{index}].name");
-                return Err(FieldError::new(&field, &parameter.name, "unique", "give each its own"));
+                return Err(FieldError::new(&field, &parameter.name, "unique", "give each another name"));
             }
             parameters.push(parameter);
         }
@@ -208,13 +208,13 @@ impl CalibrationText {
     fn levels(&self) -> Result<Vec<usize>, FieldError> {
         let levels: Vec<usize> = self.parameters.iter().filter_map(|parameter| parameter.levels).collect();
         if !levels.is_empty() && levels.len() < self.parameters.len() {
-            let remedy = "give `levels` of all or of none";
-            return Err(FieldError::new("parameters.levels", "given of some", "a grid along every axis", remedy));
+            let remedy = "give `levels` for all parameters, or for none";
+            return Err(FieldError::finding("parameters.levels", "given for some parameters only", remedy));
         }
         let points = levels.iter().try_fold(1usize, |product, count| product.checked_mul(*count));
         if points.is_none_or(|points| points > MOST_EVALUATIONS) {
-            let rule = format!("a grid of at most {MOST_EVALUATIONS} points");
-            return Err(FieldError::new("parameters.levels", "too many", &rule, "take fewer levels"));
+            let defect = format!("the grid has more than {MOST_EVALUATIONS} points");
+            return Err(FieldError::finding("parameters.levels", defect, "give fewer levels"));
         }
         Ok(levels)
     }
@@ -232,11 +232,11 @@ impl CalibrationText {
             }
         }
         if self.evaluations == Some(0) {
-            return Err(FieldError::new("evaluations", 0, "at least 1", "25 suffice for three parameters"));
+            return Err(FieldError::new("evaluations", 0, "at least 1", "give 25 for three parameters"));
         }
         for (name, value, least, most, remedy) in [
-            ("difference", self.difference, 1e-6, 0.5, "0.02 is 2 % of a range; more where runs scatter"),
-            ("tolerance", self.tolerance, 1e-9, 1e6, "0.01 of χ² is far below one standard deviation"),
+            ("difference", self.difference, 1e-6, 0.5, "give 0.02 for 2 % of a range, more where runs scatter"),
+            ("tolerance", self.tolerance, 1e-9, 1e6, "give 0.01 of χ², far below one standard deviation"),
         ] {
             if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
                 return Err(FieldError::new(name, value, &format!("between {least} and {most}"), remedy));
@@ -261,16 +261,16 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<Vec<DataBlock
             let field = format!("{kind}[{index}]");
             block.fill_law(&field)?;
             if block.data.is_empty() {
-                let remedy = "say what the case is compared with";
-                return Err(FieldError::new(&format!("{field}.data"), "[]", "at least one entry", remedy));
+                let remedy = "add the data that the case is compared with";
+                return Err(FieldError::finding(&format!("{field}.data"), "no entry", remedy));
             }
             for (place, datum) in block.data.iter().enumerate() {
                 let field = format!("{field}.data[{place}]");
                 datum.check(&field)?;
                 let mut fitted = blocks.iter().filter(|block| !block.held_out).flat_map(|block| &block.data);
                 if held_out && fitted.any(|fitted| datum.is_same(fitted)) {
-                    let remedy = "what is predicted must not be fitted, so take it out of one";
-                    return Err(FieldError::new(&field, "fitted too", "held out only", remedy));
+                    let remedy = "remove it from one: held-out data must not be fitted";
+                    return Err(FieldError::finding(&field, "both fitted and held out", remedy));
                 }
             }
             block.check_conditions(&field, held_out)?;
@@ -291,9 +291,8 @@ impl BlockText {
         if self.law.is_none() || !is_of_case && self.data.iter_mut().all(DatumText::fill_law) {
             return Ok(());
         }
-        let rule = "without `case`, `base` and `only`, and with data of files alone";
-        let remedy = "such as data = [{ file = \"points.csv\" }]";
-        Err(FieldError::new(&format!("{field}.law"), "given beside what a case has", rule, remedy))
+        let remedy = "leave `case`, `base` and `only` out, and give data such as data = [{ file = \"points.csv\" }]";
+        Err(FieldError::finding(&format!("{field}.law"), "given together with entries for a case", remedy))
     }
 
     /// Refuses conditions that do not belong to the block, or name nothing.
@@ -301,15 +300,15 @@ impl BlockText {
         let given = [("conditions", self.conditions.is_some()), ("same_within", self.same_within.is_some())];
         if let Some((name, _)) = given.iter().find(|(_, given)| *given && !held_out) {
             let field = format!("{field}.{name}");
-            return Err(FieldError::new(&field, "given", "absent where data are fitted", "drop it"));
+            return Err(FieldError::finding(&field, "for held-out data only", "leave it out"));
         }
         if let Some(same_within) = self.same_within.filter(|within| !(0.0..1.0).contains(within)) {
-            let remedy = "0.01 is one per cent";
+            let remedy = "give 0.01 for 1 %";
             return Err(FieldError::new(&format!("{field}.same_within"), same_within, "from 0 to below 1", remedy));
         }
         if self.conditions.as_ref().is_some_and(Vec::is_empty) {
             let remedy = "name the parameters that make its conditions, such as [\"slope_angle\"]";
-            return Err(FieldError::new(&format!("{field}.conditions"), "[]", "at least one path", remedy));
+            return Err(FieldError::finding(&format!("{field}.conditions"), "no path", remedy));
         }
         Ok(())
     }
@@ -322,10 +321,10 @@ impl ParameterText {
         let start = self.start.unwrap_or_else(|| bounds.value(0.5));
         let rule = format!("between {} and {}", self.lower, self.upper);
         if !(start >= self.lower && start <= self.upper) {
-            return Err(FieldError::new(&format!("{field}.start"), start, &rule, "start within the bounds"));
+            return Err(FieldError::new(&format!("{field}.start"), start, &rule, "give a start within the bounds"));
         }
         if let Some(levels) = self.levels.filter(|&levels| levels < 2) {
-            return Err(FieldError::new(&format!("{field}.levels"), levels, "2 or more", "or leave it out"));
+            return Err(FieldError::new(&format!("{field}.levels"), levels, "2 or more", "raise it, or leave it out"));
         }
         if let Some(name) = &self.name {
             check_name(&format!("{field}.name"), name)?;

@@ -93,24 +93,24 @@ fn undecided(trials: &[ChoiceResult]) -> Vec<String> {
     let mut findings = Vec::new();
     if rivals.len() > 1 {
         findings.push(format!(
-            "the data do not decide between {}: each has a weight of 5 % or more, or is first in 2.5 % of the resampled data",
+            "the data do not discriminate between {}: each has a weight of 5 % or more, or ranks first in 2.5 % of resampled data",
             rivals.join(", ")
         ));
     }
     let failed: Vec<&str> =
         trials.iter().filter(|trial| trial.failure.is_some()).map(|trial| trial.name.as_str()).collect();
     if !failed.is_empty() {
-        findings.push(format!("{} failed and could not be ranked; the table says why", failed.join(", ")));
+        findings.push(format!("{} failed and could not be ranked; the table gives the reasons", failed.join(", ")));
     }
     let data = trials.iter().map(|trial| trial.fit.len()).max().unwrap_or(0);
     if data < FEW_DATA {
-        findings.push(format!("{data} data are few: resampling them tells little about ranks, so look at the weights"));
+        findings.push(format!("{data} data are too few to rank choices by resampling; use the weights"));
     }
     let best = trials.iter().find(|trial| trial.failure.is_none());
     if let Some(error) = best.and_then(|trial| weighted_error(&trial.fit)).filter(|error| *error > 2.0) {
         findings.push(format!(
-            "even the best choice misses the data by {error:.1} standard uncertainties: the weights between choices mean \
-             little then"
+            "even the best choice differs from the data by {error:.1} standard uncertainties, so the weights have little \
+             meaning"
         ));
     }
     findings

@@ -13,9 +13,9 @@ pub struct Difference {
     pub case: String,
     /// Name of the metric.
     pub metric: String,
-    /// Its run.
+    /// Variant of the run.
     pub variant: Variant,
-    /// Its unit.
+    /// Unit of the compared values.
     pub unit: String,
     /// The number in every folder; none where the folder has no such number.
     pub entries: Vec<Option<MetricEntry>>,

@@ -25,7 +25,7 @@ pub struct Results {
 /// Contents of a folder for one case.
 #[derive(Debug, Clone)]
 pub struct CaseResults {
-    /// Its numbers.
+    /// Metrics of the case.
     pub document: MetricsDocument,
     /// Its parameters; none where the folder has no `case.toml`.
     pub parameters: Option<toml::Table>,
@@ -81,8 +81,8 @@ impl Results {
         self.moved_by_case(other).find(is_version).map_or(Ok(()), |(own, theirs, moved)| {
             let (own, theirs, other) = (&own.document, &theirs.document, shown(&other.folder));
             let gates = format!("the gates of {} were {} and are {} in {other}", own.case, own.gates, theirs.gates);
-            let remedy = "read what moved in both metrics.json, then compare the values with --across-gates";
-            Err(ToolError::at(&self.folder, format!("{gates}: limits of {moved} gates moved; {remedy}")))
+            let remedy = "compare the limits in both metrics.json, then the values with --across-gates";
+            Err(ToolError::at(&self.folder, format!("{gates}: limits of {moved} gates changed; {remedy}")))
         })
     }
 
@@ -114,7 +114,7 @@ impl Results {
             cases.insert(document.case.clone(), CaseResults { document, parameters, tables });
         }
         if cases.is_empty() {
-            let nothing = "holds neither a run's metrics.json nor a report's cases/CASE/metrics.json";
+            let nothing = "contains neither a run's metrics.json nor a report's cases/CASE/metrics.json";
             let remedy = "name a folder that `bagnold run` or `bagnold report` has written";
             return Err(ToolError::at(folder, format!("{nothing}; {remedy}")));
         }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub struct PairedKey {
     /// Name of the case.
     pub case: String,
-    /// The key.
+    /// Key of the variant in which paired runs differ.
     pub key: String,
     /// Its value in the first folder and in the other.
     pub values: [String; 2],

@@ -73,15 +73,15 @@ impl<'f> Grains<'f> {
             let is_chosen = name == "kind" && !run.kinds.is_empty() || name == "radius" && run.grain_diameter.is_some();
             if (2..=most).contains(&values.len()) && !is_chosen {
                 let listed: Vec<String> = values.iter().take(MOST_KINDS).map(f64::to_string).collect();
-                let remedy = "choose one by `kinds`, or mix sizes with `grain_diameter` given";
-                let value = format!("of {} kinds: {}", values.len(), listed.join(", "));
-                return wrong(name, value, "of one kind", remedy);
+                let remedy = "choose one by `kinds`, or give `grain_diameter` for mixed sizes";
+                let defect = format!("{} different values, {}, where one is allowed", values.len(), listed.join(", "));
+                return wrong(name, defect, "", remedy);
             }
         }
         let (count, heights, density) = (self.rows.len(), self.distinct("y"), self.distinct("density"));
         if count < FEWEST[0] || density[0] <= 0.0 || self.distinct("radius")[0] <= 0.0 {
-            let rule = format!("at least {} of positive radius and density", FEWEST[0]);
-            return wrong("y", format!("of {count} grains"), &rule, "check `kinds` and the dump, or simulate more");
+            let defect = format!("{count} grains; needed are {} of positive radius and density", FEWEST[0]);
+            return wrong("y", defect, "", "check `kinds` and the dump, or simulate more");
         }
         let mean = 2.0 * self.all("radius").iter().sum::<f64>() / count as f64;
         let depth = heights[heights.len() - 1] - heights[0];
@@ -89,14 +89,14 @@ impl<'f> Grains<'f> {
         let solid = mass / (density[0] * run.area() * (depth + mean));
         if depth > 0.0 && !(SOLID[0]..=SOLID[1]).contains(&solid) {
             let (radius, solid) = (short_digits(0.5 * mean, 3), short_digits(solid, 2));
-            let value = format!("{radius} m: a solid fraction of {solid}");
+            let defect = format!("{radius} m gives a solid fraction of {solid}, outside 0.05 to 1");
             let remedy = "check its unit, such as \"radius [mm]\", and the periods";
-            return wrong("radius", value, "one of 0.05 … 1", remedy);
+            return wrong("radius", defect, "", remedy);
         }
         if depth < LEAST_DEPTH * mean {
-            let value = format!("over a depth of {} diameters", short_digits(depth / mean, 2));
-            let remedy = "let `y` name the column across the layer, which needs a depth";
-            return wrong("y", value, &format!("over at least {LEAST_DEPTH}"), remedy);
+            let depth = short_digits(depth / mean, 2);
+            let defect = format!("the layer is {depth} diameters deep, less than {LEAST_DEPTH}");
+            return wrong("y", defect, "", "let `y` name the column across the layer");
         }
         Ok([run.grain_diameter.unwrap_or(mean), density[0]])
     }
@@ -107,8 +107,8 @@ pub(super) fn check_walls(alike: usize) -> Result<(), FieldError> {
     if alike < FEWEST[1] {
         return Ok(());
     }
-    let remedy = "they are a wall: leave them out by `kinds`";
-    Err(refused("vx", format!("the same for {alike} grains in each frame"), "that of grains that flow", remedy))
+    let remedy = "leave them out by `kinds`: they are probably a wall";
+    Err(refused("vx", format!("{alike} grains have the same velocity in each frame"), "", remedy))
 }
 
 /// Refusal of a column of grains.

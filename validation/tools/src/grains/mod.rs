@@ -71,22 +71,17 @@ fn average_run(plan: &GrainPlan, place: usize) -> Result<RunFields, ToolError> {
         if let Some(contacts) = &mut contacts {
             let is_same = |time: f64| (time - frame.time).abs() <= 1e-9 * frame.time.abs();
             let own = contacts.next().transpose()?.filter(|own| is_same(own.time)).ok_or_else(|| {
-                let value = format!("without a frame at {} s", frame.time);
-                at_run(FieldError::new(
-                    "contacts.files",
-                    value,
-                    "at the times of the grains",
-                    "dump both at the same steps",
-                ))
+                let defect = format!("no frame at {} s, where the grains have one", frame.time);
+                at_run(FieldError::finding("contacts.files", defect, "dump both at the same steps"))
             })?;
             add_contacts(&mut window, bin, run.length, [&grains, &Grains::new(&own.columns, &[])]).map_err(at_run)?;
         }
         frames.push(window);
     }
     let Some([diameter, density]) = layer.filter(|_| frames.len() >= WINDOWS) else {
-        let (value, rule) = (format!("of {} frames", frames.len()), format!("of at least {WINDOWS} frames"));
-        let remedy = "dump a steady flow at several times, some seconds of its shearing apart";
-        return Err(at_run(FieldError::new("particles.files", value, &rule, remedy)));
+        let defect = format!("frames in the files: {}, needed: {WINDOWS} or more", frames.len());
+        let remedy = "dump a steady flow at several times, with some seconds of shear between them";
+        return Err(at_run(FieldError::finding("particles.files", defect, remedy)));
     };
     check_walls(alike).map_err(at_run)?;
     let end = |k: usize| k * frames.len() / WINDOWS;
@@ -96,10 +91,10 @@ fn average_run(plan: &GrainPlan, place: usize) -> Result<RunFields, ToolError> {
     if fields.unsteadiness <= limit {
         return Ok(fields);
     }
-    let [value, rule] = [fields.unsteadiness, limit].map(|part| short_digits(100.0 * part, 2));
-    let (value, rule) = (format!("of a velocity that changes by {value} %"), format!("steady within {rule} %"));
-    let remedy = "dump later, or leave the run out; `steady_within` is the limit";
-    Err(at_run(FieldError::new("particles.files", value, &rule, remedy)))
+    let [change, limit] = [fields.unsteadiness, limit].map(|part| short_digits(100.0 * part, 2));
+    let defect = format!("the velocity changes by {change} %, above the limit of {limit} % (`steady_within`)");
+    let remedy = "dump later, or leave the run out";
+    Err(at_run(FieldError::finding("particles.files", defect, remedy)))
 }
 
 /// Adds the contacts of a frame of which one grain flows at least.
@@ -117,7 +112,8 @@ fn add_contacts(
         let [Some(first), Some(second)] = pair else {
             let value = format!("{} and {}", contacts.at("first", row), contacts.at("second", row));
             let remedy = "dump all grains, walls included, with their `id`";
-            return Err(FieldError::new("contacts.columns.first", value, "ids of grains of the frame", remedy));
+            let rule = "ids of two grains of the frame";
+            return Err(FieldError::new("contacts.columns.first", value, rule, remedy));
         };
         if [first, second].iter().all(|row| grains.rows.binary_search(row).is_err()) {
             continue;
@@ -130,8 +126,8 @@ fn add_contacts(
         window.add_contact(bin, grains.at("y", first), branch, force);
     }
     if work < 0.0 {
-        let remedy = "exchange `first` and `second`: grains push each other apart";
-        return Err(FieldError::new("contacts.columns.fx", "a pull in the mean", "the force on `first`", remedy));
+        let remedy = "exchange `first` and `second`: `fx` is the force on `first`";
+        return Err(FieldError::finding("contacts.columns.fx", "grains attract each other on average", remedy));
     }
     Ok(())
 }

@@ -62,7 +62,7 @@ pub fn summary(runs: &[RunFields]) -> String {
         let [pressure, shear] = [3, 4].map(|k| run.core[k].0 / run.core[k + 4].0);
         if pressure.max(shear) - 1.0 > UNBALANCED || 1.0 - pressure.min(shear) > UNBALANCED {
             caution(&format!(
-                "{}: contacts do not bear what the momentum balance says within 5 %: average longer",
+                "{}: the contact stresses differ from the momentum balance by more than 5 %; average over a longer time",
                 run.name
             ));
         }

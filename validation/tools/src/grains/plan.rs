@@ -71,7 +71,7 @@ pub struct GrainRun {
     #[schemars(transform = positive("give it in metres"))]
     pub length: f64,
     /// Period across the flow of spheres; without it grains are discs, per metre of width `[m]`
-    #[schemars(transform = positive("give it in metres: spheres in a cell without depth fill no volume"))]
+    #[schemars(transform = positive("give the depth of the cell in metres"))]
     pub width: Option<f64>,
     /// Kinds that flow, of the column `kind`; all if it is left out
     #[serde(default)]
@@ -110,12 +110,12 @@ impl GrainRun {
     fn check(&self) -> Result<(), FieldError> {
         check_name("name", &self.name)?;
         if self.slope_angle.is_some() == self.pressure.is_some() {
-            let rule = "given for a slope, and `pressure` for a shear cell";
-            return Err(FieldError::new("slope_angle", "missing or beside `pressure`", rule, "give one of them"));
+            let remedy = "give `slope_angle` for a slope, or `pressure` for a shear cell";
+            return Err(FieldError::finding("slope_angle", "missing, or given together with `pressure`", remedy));
         }
         if self.pressure.is_some() && self.shear_stress.is_none() && self.contacts.is_none() {
-            let remedy = "give the shear stress that was measured at a plate, or the contacts";
-            return Err(FieldError::new("shear_stress", "missing", "given without contacts", remedy));
+            let remedy = "give the shear stress [Pa] measured at a plate, or give `contacts`";
+            return Err(FieldError::finding("shear_stress", "missing", remedy));
         }
         needed(&self.particles, &GRAINS[..if self.contacts.is_some() { 7 } else { 5 }])?;
         let of_contacts =
@@ -129,7 +129,7 @@ fn needed(files: &ParticleFiles, items: &[ExternalColumn]) -> Result<(), FieldEr
     files.check()?;
     let missing = items.iter().find(|item| !files.columns.contains_key(item.name));
     missing.map_or(Ok(()), |ExternalColumn { name, unit, description }| {
-        let remedy = format!("dump it, and name it as {name} = \"HEADING [{unit}]\"; it is the {description}");
-        Err(FieldError::new(&format!("particles.columns.{name}"), "missing", "given", &remedy))
+        let remedy = format!("dump the {description}, and name it as {name} = \"HEADING [{unit}]\"");
+        Err(FieldError::finding(&format!("particles.columns.{name}"), "missing", &remedy))
     })
 }

@@ -87,7 +87,7 @@ fn grains_of_a_cell_have_its_stress_and_rough_walls_are_no_grains() {
     assert!((run.core[5].0 - 0.4).abs() < 1e-12);
     let message = |plan: &GrainPlan| average(plan).expect_err("refused").to_string();
     plan.steady_within = Some(1e-6);
-    assert!(message(&plan).contains("steady within 0.0001 %; dump later"), "{}", message(&plan));
+    assert!(message(&plan).contains("above the limit of 0.0001 % (`steady_within`); dump later"), "{}", message(&plan));
     let text = std::fs::read_to_string(folder.path().join("grains.dump")).expect("written");
     let put = |text: &str| std::fs::write(folder.path().join("grains.dump"), text).expect("written");
     // the first grains stand still
@@ -99,9 +99,9 @@ fn grains_of_a_cell_have_its_stress_and_rough_walls_are_no_grains() {
         _ => format!("{line}\n"),
     };
     put(&text.lines().map(still).collect::<String>());
-    assert!(message(&plan).contains("the same for 19 grains in each frame"), "{}", message(&plan));
+    assert!(message(&plan).contains("19 grains have the same velocity in each frame"), "{}", message(&plan));
     put(text.split("ITEM: TIME\n1\n").next().expect("a frame"));
-    assert!(message(&plan).contains("of 1 frames, but must be of at least 5 frames"), "{}", message(&plan));
+    assert!(message(&plan).contains("frames in the files: 1, needed: 5 or more"), "{}", message(&plan));
 }
 
 /// Profiles that LAMMPS itself has averaged over the frames of its dump: bins of one diameter, stresses by atom.

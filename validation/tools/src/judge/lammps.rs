@@ -31,7 +31,7 @@ pub(super) fn pictures(
         };
         let mut lines = |most: usize| {
             let read = read_lines(&mut reader, most);
-            read.map_err(|error| FieldError::finding("file", error, "read it again").in_file(&file))
+            read.map_err(|error| FieldError::finding("file", error, "try again, or copy the file").in_file(&file))
         };
         let number = |(line, _): (String, usize), field: &str| {
             let word = line.trim();
@@ -47,21 +47,20 @@ pub(super) fn pictures(
                 kind @ ("ATOMS" | "ENTRIES") => {
                     let (rows, read) = lines(count)?;
                     if read < count {
-                        let (value, rule) = (format!("{read} atoms at step {place}"), format!("{count} atoms"));
-                        return Err(wrong("ITEM: ATOMS", &value, &rule, "the file was cut short: write it again"));
+                        let defect = format!("{read} atoms instead of {count} at step {place}");
+                        return Err(wrong("ITEM: ATOMS", &defect, "", "write the dump again: the file is truncated"));
                     }
                     let mut table = TextTable::parse(&format!("{}\n{rows}", heading.join(" ")), &file)?;
                     sort_by_identity(&mut table);
                     let needed = || {
                         let remedy = "give `time_step` [s], or dump with `dump_modify … time yes`";
-                        wrong("particles.time_step", "missing", "given with a dump that tells steps only", remedy)
+                        wrong("particles.time_step", "missing", "given with a dump that contains steps only", remedy)
                     };
                     let at = time.take().map_or_else(|| step.map(|step| step * place).ok_or_else(needed), Ok)?;
                     found += 1;
                     is_numbered &= kind == "ENTRIES" || heading.contains(&"id");
                     if found > 1 && !is_numbered {
-                        let rule = "with the number of each atom";
-                        return Err(wrong("ITEM: ATOMS", "without `id`", rule, "dump the column id too"));
+                        return Err(wrong("ITEM: ATOMS", "no column `id`", "", "dump the column id too"));
                     }
                     return Ok(Some((at, table)));
                 }
@@ -69,7 +68,7 @@ pub(super) fn pictures(
             }
         }
         if found == 0 {
-            return Err(wrong("ITEM: ATOMS", "missing", "given once at least", "dump atoms as text"));
+            return Err(wrong("ITEM: ATOMS", "missing", "", "dump atoms as text"));
         }
         Ok(None)
     };
@@ -122,11 +121,11 @@ mod tests {
         let message = |text: &str, step| all(text, step).expect_err("refused").to_string();
         assert!(message(DUMP, None).contains("`particles.time_step` is missing"), "{}", message(DUMP, None));
         let unnumbered = DUMP.replace("ATOMS id x y", "ATOMS n x y");
-        assert!(message(&unnumbered, Some(1.0)).contains("without `id`"), "{}", message(&unnumbered, Some(1.0)));
-        assert!(message("ITEM: TIMESTEP\n0\n", Some(1.0)).contains("`ITEM: ATOMS` is missing"));
+        assert!(message(&unnumbered, Some(1.0)).contains("no column `id`"), "{}", message(&unnumbered, Some(1.0)));
+        assert!(message("ITEM: TIMESTEP\n0\n", Some(1.0)).contains("`ITEM: ATOMS`: missing"));
         let short = DUMP.rsplit_once("2 0.7").expect("a row").0;
         assert!(
-            message(short, Some(1.0)).contains("1 atoms at step 500, but must be 2 atoms"),
+            message(short, Some(1.0)).contains("1 atoms instead of 2 at step 500"),
             "{}",
             message(short, Some(1.0))
         );

@@ -93,7 +93,7 @@ pub struct JudgedCode {
 pub struct CodeComparison {
     /// Our case.
     pub own: CaseResult,
-    /// The codes.
+    /// Judged codes, one for each submission.
     pub codes: Vec<JudgedCode>,
     /// Our figures with theirs drawn in.
     pub figures: Vec<Figure>,
@@ -131,13 +131,13 @@ impl CaseSubmissions {
             let same = (&other.case, other.tier, &other.with) == (&first.case, first.tier, &first.with);
             if !same {
                 let first = shown(&first.path);
-                let reason = format!("has another case, tier or `with` than {first}; judge them apart");
+                let reason = format!("case, tier or `with` differ from {first}; judge the two separately");
                 return Err(ToolError::at(&other.path, reason));
             }
             if let Some(twin) = submissions[..place].iter().find(|twin| twin.code == other.code) {
                 let value = format!("\"{} {}\"", other.code.name, other.code.version);
                 let rule = format!("another code than that of {}", twin.path.display());
-                return Err(FieldError::new("code", value, &rule, "give it a version").in_file(&other.path).into());
+                return Err(FieldError::new("code", value, &rule, "give each a version").in_file(&other.path).into());
             }
         }
         let case = registry.find(&first.case).map_err(|error| error.in_file(&first.path))?;
@@ -150,7 +150,7 @@ impl CaseSubmissions {
         let is_other = |submission: &&Submission| submission.inputs.as_ref().is_some_and(|given| *given != inputs);
         if let Some(Submission { inputs: Some(given), path, .. }) = submissions.iter().find(is_other) {
             let (value, rule) = (format!("\"{given}\""), format!("\"{inputs}\", the digest of these inputs"));
-            let remedy = "export the case again and compare both `case.toml`";
+            let remedy = "export the case again, and compare the two `case.toml`";
             return Err(FieldError::new("inputs", value, &rule, remedy).in_file(path).into());
         }
         // the runs of ours that any code gives something of, in our order
@@ -238,18 +238,18 @@ fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<us
         };
         match least[..] {
             [place] if places.contains(&place) => {
-                return Err(wrong("another run than those before", "give each run once, in one table [[run]]"));
+                return Err(wrong("another run than those above it", "give each run once, in one table [[run]]"));
             }
             [place] => places.push(place),
             [] => {
                 let listed = quoted(variants.iter().take(6), ", ");
-                let rule = format!("keys of a run of this case and tier, such as {listed}");
+                let rule = format!("keys and values of a run of this case and tier, such as {listed}");
                 return Err(wrong(&rule, "`bagnold judge --template` lists the runs"));
             }
             _ => {
                 let listed = quoted(least.iter().take(4).map(|&place| &variants[place]), " and ");
-                let rule = format!("one run, but is {listed}");
-                return Err(wrong(&rule, "add a key that tells them apart"));
+                let rule = format!("a single run, but fits {listed}");
+                return Err(wrong(&rule, "add a key in which they differ"));
             }
         }
     }

@@ -72,7 +72,7 @@ pub(super) fn read(
 fn in_order(numbers: &[f64], field: &str, file: &Path) -> Result<(), FieldError> {
     rising(numbers).map_or(Ok(()), |number| {
         let rule = "larger than the number before";
-        Err(FieldError::new(field, number, rule, "sort the rows and remove what stands twice").in_file(file))
+        Err(FieldError::new(field, number, rule, "sort the rows, and remove duplicate ones").in_file(file))
     })
 }
 
@@ -85,7 +85,7 @@ pub(crate) fn plan(
 ) -> Result<ColumnAssignments, FieldError> {
     let group = format!("{field}.columns");
     if texts.is_empty() {
-        return Err(FieldError::new(&group, "empty", "given", "say which column is what"));
+        return Err(FieldError::finding(&group, "empty", "assign columns to quantities: NAME = \"HEADING [UNIT]\""));
     }
     texts
         .iter()
@@ -112,17 +112,17 @@ fn by_headings(table: &TextTable, items: &[ExternalColumn]) -> Result<BTreeMap<S
         return Ok(columns);
     }
     let names: Vec<String> = items.iter().map(|item| format!("{} [{}]", item.name, item.unit)).collect();
-    let rule = format!("given, or the headings be two or more of {}", names.join(", "));
-    let remedy = "rename them, or say which column is what: columns = { NAME = \"HEADING [UNIT]\" }";
-    Err(FieldError::new("columns", format!("missing beside the headings {}", table.headings.join(", ")), &rule, remedy))
+    let defect = format!("missing, and the headings {} are not known", table.headings.join(", "));
+    let remedy = format!("rename two to {}, or give columns = {{ NAME = \"HEADING [UNIT]\" }}", names.join(", "));
+    Err(FieldError::finding("columns", defect, &remedy))
 }
 
 /// Files that another one names, unless one of them is missing.
 fn there(named: Vec<(f64, PathBuf)>, by: &Path) -> Result<Vec<(f64, PathBuf)>, FieldError> {
     named.iter().find(|(_, file)| !file.exists()).map_or(Ok(()), |(_, file)| {
         let beside = by.parent().and_then(|folder| file.strip_prefix(folder).ok()).unwrap_or(file);
-        let remedy = "copy it there: names stand relative to the file that has them";
-        Err(FieldError::new("file", format!("{beside:?}"), "a file that is there", remedy).in_file(by))
+        let remedy = "copy it there: paths are relative to the file that names them";
+        Err(FieldError::finding("file", format!("{beside:?} does not exist"), remedy).in_file(by))
     })?;
     Ok(named)
 }
@@ -146,7 +146,7 @@ pub(crate) fn frames<'f>(
         let is_dump = lammps::is_dump(reader.fill_buf().map_err(unreadable)?);
         if ["dump", "lammpstrj"].contains(&ending(&file).as_str()) && !is_dump {
             let remedy = "write it with `dump custom` and a name that does not end in .bin or .gz";
-            return Err(FieldError::new("file", "no text", "a dump of LAMMPS as text", remedy).in_file(&file).into());
+            return Err(FieldError::finding("file", "not a text dump", remedy).in_file(&file).into());
         }
         if is_dump {
             let mut before = f64::NEG_INFINITY;
@@ -163,8 +163,8 @@ pub(crate) fn frames<'f>(
         files.times.iter().copied().zip(files.files.iter().map(|file| folder.join(file))).collect()
     };
     if named.len() > MOST_PICTURES {
-        let rule = format!("at most {MOST_PICTURES}");
-        return Err(FieldError::new("particles.files", named.len(), &rule, "give fewer pictures").into());
+        let defect = format!("{} times, above the limit of {MOST_PICTURES}", named.len());
+        return Err(FieldError::finding("particles.files", defect, "give fewer times").into());
     }
     let mut pieces = in_pieces(named)?.into_iter().peekable();
     Ok(Box::new(std::iter::from_fn(move || {
@@ -250,7 +250,7 @@ fn of_points(points: &PointArrays, plan: &ColumnAssignments, file: &Path) -> Res
                 format!("; at its cells {}", names(&points.cells))
             };
             let rule = format!("an array of {}: {}{at_cells}", file.display(), names(arrays));
-            let remedy = format!("{guess}places are Points:0, Points:1, Points:2, parts of a vector NAME:0 and so on");
+            let remedy = format!("{guess}name coordinates Points:0, Points:1, Points:2, parts of a vector NAME:0, …");
             FieldError::new(field, format!("\"{text}\""), &rule, &remedy)
         }),
         ColumnSource::Constant { value, .. } => Ok(vec![*value; count]),
@@ -278,7 +278,7 @@ fn in_si(
             let mut values = column(source, field)?;
             if let Some(row) = values.iter().position(|value| !value.is_finite()) {
                 let name = format!("{field}, row {}", row + 1);
-                let remedy = "mend the output, or leave the column out";
+                let remedy = "correct the output, or leave the column out";
                 return Err(FieldError::new(&name, values[row], "a finite number", remedy).in_file(file));
             }
             for value in &mut values {

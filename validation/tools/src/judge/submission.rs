@@ -26,7 +26,7 @@ pub struct Submission {
     /// Parameters that differ from the tier's, or from those of `base`, as in a case's file.
     #[serde(default)]
     pub with: toml::Table,
-    /// The code.
+    /// Name and version of the judged code.
     pub code: Code,
     /// The law that its runs obey.
     #[serde(default)]
@@ -38,7 +38,7 @@ pub struct Submission {
     /// Digests of the limits, separated by blanks: they count the limits that have moved.
     #[serde(default)]
     pub limits: String,
-    /// Its runs.
+    /// Runs of the case with their results.
     #[serde(rename = "run", default)]
     pub runs: Vec<ForeignRun>,
 }
@@ -142,7 +142,7 @@ impl Submission {
         let file = CaseFile::of_plan(path, Some(&self.case), self.base.as_deref(), None, &self.with)?;
         if let Some(tier) = file.tier.filter(|tier| *tier != self.tier) {
             let rule = format!("the tier of {}, {tier}", file.path.display());
-            let remedy = "name in both files what is judged";
+            let remedy = "name the same tier in both files";
             return Err(FieldError::new("tier", self.tier, &rule, remedy).in_file(path).into());
         }
         Ok(file.fields)
@@ -170,19 +170,19 @@ impl Submission {
             check_name("code.version", &self.code.version)?;
         }
         if self.runs.is_empty() {
-            let remedy = "add a table [[run]] with what the code gives of it";
-            return Err(FieldError::new("run", "missing", "given once at least", remedy));
+            let remedy = "add a table [[run]] with the results of the code";
+            return Err(FieldError::finding("run", "missing", remedy));
         }
         for (place, run) in self.runs.iter().enumerate() {
             let field = format!("run {}", place + 1);
             if let Some((name, value)) = run.numbers.iter().find(|(_, value)| value.is_nan()) {
-                let remedy = "leave out what was not measured";
+                let remedy = "leave quantities without a value out";
                 return Err(FieldError::new(&format!("{field}.numbers.{name}"), value, "a number", remedy));
             }
             let is_coarser = |coarse: &CoarseRun| coarse.ratio > 1.0 && coarse.ratio.is_finite();
             if let Some(coarse) = run.coarse.as_ref().filter(|coarse| !is_coarser(coarse) || run.profile.is_none()) {
-                let remedy = "give the ratio of the cell sizes, such as 2, beside the profile of the finer mesh";
-                let rule = "finite, larger than 1 and beside a profile";
+                let remedy = "give the ratio of the cell sizes, such as 2, and the profile of the finer mesh";
+                let rule = "finite, larger than 1 and given with a profile";
                 return Err(FieldError::new(&format!("{field}.coarse.ratio"), coarse.ratio, rule, remedy));
             }
             if let Some(files) = &run.particles {
@@ -190,9 +190,8 @@ impl Submission {
             }
             let is_empty = run.numbers.is_empty() && run.particles.is_none() && run.series.is_none();
             if is_empty && run.profile.is_none() {
-                let rule = "a run of which something is given";
                 let remedy = "add numbers, particles, series or profile, or leave the run out";
-                return Err(FieldError::new(&field, "empty", rule, remedy));
+                return Err(FieldError::finding(&field, "no results", remedy));
             }
         }
         Ok(())
@@ -214,18 +213,18 @@ impl ParticleFiles {
             Err(FieldError::new(&format!("particles.{field}"), value, rule, remedy))
         };
         if self.files.is_empty() {
-            return wrong("files", "[]".to_owned(), "one file a time", "name the files");
+            return wrong("files", "no files".to_owned(), "", "name one file for each time");
         }
         if self.is_collection() {
             return if self.times.is_empty() {
                 Ok(())
             } else {
-                wrong("times", "given".to_owned(), "absent with a single .pvd or dump", "it says the times")
+                wrong("times", "given with a .pvd or dump".to_owned(), "", "leave it out: the file contains the times")
             };
         }
         if self.times.len() != self.files.len() {
-            let value = format!("of {} numbers for {} files", self.times.len(), self.files.len());
-            return wrong("times", value, "one per file", "give the time of each file [s]");
+            let defect = format!("{} times for {} files", self.times.len(), self.files.len());
+            return wrong("times", defect, "", "give the time of each file in s");
         }
         rising(&self.times).map_or(Ok(()), |time| {
             let remedy = "list the files in the order of time";

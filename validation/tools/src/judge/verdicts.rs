@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 /// A metric of ours with another code's value, if it gave one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MetricComparison {
-    /// Ours.
+    /// Metric of our own run.
     pub own: Metric,
     /// The other code's, with its own gate; none where nothing was given that it follows from.
     pub foreign: Option<Metric>,
@@ -72,7 +72,7 @@ fn place_of(own: &[Metric], variant: &Variant, name: &str, field: &str) -> Resul
         let listed: BTreeSet<&str> = names.iter().copied().collect();
         let listed: Vec<&str> = listed.into_iter().collect();
         let remedy = format!("{guess}this run has {}", listed.join(", "));
-        FieldError::new(&format!("{field}.numbers.{name}"), "given", "a metric of this run", &remedy)
+        FieldError::finding(&format!("{field}.numbers.{name}"), "unknown metric", &remedy)
     })
 }
 
@@ -123,7 +123,7 @@ mod tests {
         assert_eq!((compared[0].verdict(), compared[0].own.value), (Some(Verdict::Pass), 0.5));
         assert_eq!(
             of(&run("frnt")).expect_err("no such metric").to_string(),
-            "`run 1.numbers.frnt` is given, but must be a metric of this run; did you mean `front`? this run has front"
+            "`run 1.numbers.frnt`: unknown metric; did you mean `front`? this run has front"
         );
     }
 

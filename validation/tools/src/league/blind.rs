@@ -36,7 +36,7 @@ pub struct BlindComparison {
     pub aspect_ratio: Option<f64>,
     /// Name of the quantity; lengths are over the half width but for the front's way down an incline `[m]`.
     pub quantity: String,
-    /// The prediction.
+    /// Predicted value, written before the measurement was known.
     pub value: f64,
     /// Its standard uncertainty from the friction that was measured.
     pub u_input: f64,

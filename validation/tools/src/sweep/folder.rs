@@ -55,7 +55,7 @@ impl SweepFolder {
     /// # Errors
     /// A folder without a manifest, or a manifest of another version of the program.
     pub fn open(folder: &Path) -> Result<Self, ToolError> {
-        let nothing = "holds no sweep (no manifest.json); name the folder that `bagnold sweep` wrote";
+        let nothing = "no sweep in this folder (no manifest.json); name the folder that `bagnold sweep` wrote";
         let manifest: Manifest = owner_of(folder)?.ok_or_else(|| ToolError::at(folder, nothing.to_owned()))?;
         if manifest.is_foreign() {
             return Err(FolderError::OtherPlan { what: "sweep", folder: folder.to_owned(), by_program: true }.into());

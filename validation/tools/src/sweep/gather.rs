@@ -30,7 +30,7 @@ pub fn gather(sweep: &SweepFolder, registry: Registry) -> Result<SweepProgress, 
         write_whole(&sweep.path().join(name), text.as_bytes()).map_err(unwritable)?;
     }
     for name in unknown_metrics(sweep.manifest(), &records) {
-        tracing::warn!("no run gives the metric `{name}` that the plan wants drawn; results.csv names those there are");
+        tracing::warn!("no run has the metric `{name}` that the plan draws; results.csv lists the existing ones");
     }
     let figures = figures(sweep.manifest(), &records);
     let undrawn = |error: FigureError| unwritable(std::io::Error::other(error.to_string()));

@@ -18,7 +18,7 @@ pub struct SweepRun {
     pub case: String,
     /// Label in the tables.
     pub label: String,
-    /// Its tier.
+    /// Tier of the run.
     pub tier: Tier,
     /// Name of its folder below `runs`.
     pub folder: String,
@@ -61,7 +61,7 @@ impl Manifest {
     pub fn entry(&self, number: usize) -> Result<&SweepRun, ToolError> {
         self.entries.iter().find(|entry| entry.number == number).ok_or_else(|| {
             let rule = format!("between 1 and {}", self.entries.len());
-            FieldError::new("--entry", number, &rule, "manifest.json lists the runs").into()
+            FieldError::new("--entry", number, &rule, "choose a run that manifest.json lists").into()
         })
     }
 }

@@ -127,7 +127,7 @@ impl SweepPlan {
 
     fn check(&self) -> Result<(), FieldError> {
         let missing = |field: &str, example: &str| {
-            Err(FieldError::new(field, "empty", "at least one table", &format!("add a `[[{field}]]` table, {example}")))
+            Err(FieldError::finding(field, "no table", &format!("add a `[[{field}]]` table, {example}")))
         };
         if self.text.cases.is_empty() {
             return missing("cases", "such as case = \"film\"");
@@ -140,13 +140,14 @@ impl SweepPlan {
             varied.check(&field, self.text.design == Design::GRID)?;
             let name = varied.name();
             if TAKEN.contains(&name.as_str()) {
-                let remedy = "give it a `name` of its own";
-                return Err(FieldError::new(&format!("{field}.name"), name, "no column of the results", remedy));
+                let defect = format!("\"{name}\" is a column of the results");
+                return Err(FieldError::finding(&format!("{field}.name"), defect, "give it another `name`"));
             }
             for request in &self.text.cases {
                 if varied.path.in_case(&request.case).is_none() {
                     let remedy = format!("add {} = \"…\"", request.case);
-                    return Err(FieldError::new(&format!("{field}.path"), "a table", "one with every case", &remedy));
+                    let defect = format!("no path for the case {}", request.case);
+                    return Err(FieldError::finding(&format!("{field}.path"), defect, &remedy));
                 }
             }
         }
@@ -155,12 +156,12 @@ impl SweepPlan {
                 check_name(&format!("cases[{index}].name"), name)?;
             }
             if self.text.cases[..index].iter().any(|other| other.label() == request.label()) {
-                let (rule, remedy) = ("unique", "give a case that stands twice a `name` each time");
+                let (rule, remedy) = ("unique", "give each entry of the same case another `name`");
                 return Err(FieldError::new(&format!("cases[{index}].name"), request.label(), rule, remedy));
             }
         }
         for request in &self.text.cases {
-            self.list(&request.case).check_at_most(MOST_RUNS, "take fewer values or levels")?;
+            self.list(&request.case).check_at_most(MOST_RUNS, "list fewer values or levels")?;
         }
         let (points, most) = match self.text.design {
             Design::Word(Word::Grid) => return Ok(()),
@@ -171,7 +172,7 @@ impl SweepPlan {
             return Ok(());
         }
         let rule = format!("between 1 and {most}");
-        Err(FieldError::new("design.points", points, &rule, "every point is one run of each case"))
+        Err(FieldError::new("design.points", points, &rule, "correct the number; every point is one run of each case"))
     }
 
     /// The list of a grid's points in a case. Outside a grid it stands for the names and paths alone.
@@ -218,8 +219,8 @@ impl SweepPlan {
         let points: Vec<Vec<ListedChange>> = self.text.cases.iter().map(|request| self.points(&request.case)).collect();
         let runs: usize = points.iter().map(Vec::len).sum();
         if runs > MOST_RUNS {
-            let rule = format!("at most {MOST_RUNS} runs");
-            return Err(FieldError::new("vary", runs, &rule, "take fewer values").in_file(&self.file).into());
+            let defect = format!("{runs} runs, above the limit of {MOST_RUNS}");
+            return Err(FieldError::finding("vary", defect, "list fewer values").in_file(&self.file).into());
         }
         let mut entries = Vec::with_capacity(runs);
         let (mut refusal, mut overlay) = (None, BTreeMap::new());
@@ -312,16 +313,16 @@ impl SweptParameter {
         if self.values.is_some() {
             return match range.iter().find(|(_, given)| *given) {
                 _ if !grid => {
-                    let remedy = "give lower and upper, or take design = \"grid\"";
-                    refused("values", "given".to_owned(), "absent outside a grid", remedy)
+                    let remedy = "give lower and upper, or choose design = \"grid\"";
+                    refused("values", "only for design = \"grid\"".to_owned(), "", remedy)
                 }
-                Some((name, _)) => refused(name, "given".to_owned(), "absent beside values", "keep one of the two"),
+                Some((name, _)) => refused(name, "given together with `values`".to_owned(), "", "keep one of the two"),
                 None => Ok(()),
             };
         }
         if let Some((name, _)) = range[..2].iter().find(|(_, given)| !given) {
-            let remedy = if grid { "or list `values`" } else { "give both bounds" };
-            return refused(name, "missing".to_owned(), "a number", remedy);
+            let remedy = if grid { "give both bounds, or list `values`" } else { "give both bounds" };
+            return refused(name, "missing".to_owned(), "", remedy);
         }
         self.bounds().check().map_err(|error| FieldError::of_bounds(field, &error))?;
         match (self.levels, grid) {
@@ -329,14 +330,15 @@ impl SweptParameter {
             (Some(levels @ 2..=MOST_RUNS), true) => match self.grid().windows(2).find(|pair| pair[0] == pair[1]) {
                 None => Ok(()),
                 Some(pair) => {
-                    let value = format!("{levels}, of which several are {}", pair[0]);
-                    refused("levels", value, "so many that all differ", "take fewer levels, or a wider range")
+                    let defect = format!("{levels} levels are too close together: several are {}", pair[0]);
+                    refused("levels", defect, "", "give fewer levels, or a wider range")
                 }
             },
             (levels, _) => {
                 let shown = levels.map_or_else(|| "missing".to_owned(), |levels| levels.to_string());
-                let rule = if grid { format!("between 2 and {MOST_RUNS}") } else { "absent outside a grid".to_owned() };
-                refused("levels", shown, &rule, "the levels divide the range of a grid's parameter")
+                let rule =
+                    if grid { format!("between 2 and {MOST_RUNS}") } else { "left out, without grid".to_owned() };
+                refused("levels", shown, &rule, "give the number of values in the range of a grid's parameter")
             }
         }
     }

@@ -146,7 +146,7 @@ fn printed(command: &mut Command) -> Result<String, ToolError> {
             (format!("failed: {message}"), "check partition, time and memory, and `sinfo`")
         }
         Err(error) if error.kind() == ErrorKind::NotFound => {
-            ("is not on this machine".to_owned(), "log in to the cluster, or use --engine local")
+            ("is not installed on this machine".to_owned(), "log in to the cluster, or use --engine local")
         }
         Err(error) => (format!("cannot be started ({error})"), "check the installation of Slurm"),
     };

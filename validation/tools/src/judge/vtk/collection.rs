@@ -13,13 +13,12 @@ pub(in crate::judge) const PARALLEL: [&str; 3] = ["pvtu", "pvtp", "vtm"];
 /// # Errors
 /// A file that is no collection of VTK's, or has a data set without a time or a file.
 pub(in crate::judge) fn collection(text: &str, file: &Path) -> Result<Vec<(f64, PathBuf)>, FieldError> {
-    let wrong =
-        |value: &str, rule: &str| FieldError::new("file", value, rule, "see ParaView's PVD format").in_file(file);
+    let wrong = |defect: &str| FieldError::finding("file", defect, "write it as ParaView's PVD format").in_file(file);
     let mut sets: Vec<(f64, String, PathBuf)> = Vec::new();
     let mut enter = |time: Option<f64>, part: &str, name: Option<&str>| {
         let time = time.filter(|time| time.is_finite());
-        let time = time.ok_or_else(|| wrong("with a data set without a time", "a time each"))?;
-        let name = name.ok_or_else(|| wrong("with a data set without a file", "a file each"))?;
+        let time = time.ok_or_else(|| wrong("a data set has no time"))?;
+        let name = name.ok_or_else(|| wrong("a data set has no file"))?;
         let name = beside(file, name);
         // files of one time that follow each other are its parts; what comes later was written by a restart
         let follows = sets.last().is_some_and(|(other, _, last)| *other == time && *last != name);
@@ -31,12 +30,12 @@ pub(in crate::judge) fn collection(text: &str, file: &Path) -> Result<Vec<(f64, 
     };
     if file.extension().is_some_and(|ending| ending == "series") {
         let series: serde_json::Value =
-            serde_json::from_str(text).map_err(|error| wrong(&format!("damaged ({error})"), "a series of VTK"))?;
+            serde_json::from_str(text).map_err(|error| wrong(&format!("not a series of VTK ({error})")))?;
         for set in series["files"].as_array().into_iter().flatten() {
             enter(set["time"].as_f64(), "", set["name"].as_str())?;
         }
     } else {
-        let document = nesting::parse(text).map_err(|reason| wrong(&reason, "a collection of VTK"))?;
+        let document = nesting::parse(text).map_err(|reason| wrong(&format!("not a collection of VTK ({reason})")))?;
         for node in document.descendants().filter(|node| node.has_tag_name("DataSet")) {
             let time = node.attribute("timestep").and_then(|time| time.parse().ok());
             enter(time, node.attribute("part").unwrap_or_default(), node.attribute("file"))?;
@@ -44,7 +43,7 @@ pub(in crate::judge) fn collection(text: &str, file: &Path) -> Result<Vec<(f64, 
     }
     sets.sort_by(|a, b| a.0.total_cmp(&b.0));
     if sets.is_empty() {
-        return Err(wrong("without data sets", "a collection of VTK"));
+        return Err(wrong("no data sets"));
     }
     Ok(sets.into_iter().map(|(time, _, file)| (time, file)).collect())
 }
@@ -56,7 +55,7 @@ pub(in crate::judge) fn collection(text: &str, file: &Path) -> Result<Vec<(f64, 
 pub(in crate::judge) fn pieces(text: &str, file: &Path) -> Result<Vec<PathBuf>, FieldError> {
     let wrong = |value: &str| {
         let remedy = "write points in one file, in ParaView by Save Data";
-        FieldError::new("file", value, "a list of pieces of VTK", remedy).in_file(file)
+        FieldError::finding("file", format!("not a list of pieces of VTK ({value})"), remedy).in_file(file)
     };
     let document = nesting::parse(text).map_err(|reason| wrong(&reason))?;
     let source = |node: roxmltree::Node<'_, '_>| match node.tag_name().name() {

@@ -50,7 +50,7 @@ const GRID: &str = "an unstructured grid or polygonal data of VTK";
 impl From<String> for Refusal {
     fn from(value: String) -> Self {
         let remedy = "write points with arrays at points or at cells, as ParaView reads them";
-        Self(FieldError::new("file", value, GRID, remedy))
+        Self(FieldError::finding("file", format!("not {GRID}: {value}"), remedy))
     }
 }
 
@@ -69,7 +69,7 @@ impl PointArrays {
         let is_legacy = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtk"));
         let read = if bytes.starts_with(HDF5) {
             let remedy = "write it as .vtu or .vtp, in ParaView by Save Data";
-            Err(Refusal(FieldError::new("file", "in HDF5", GRID, remedy)))
+            Err(Refusal(FieldError::finding("file", format!("not {GRID}: in HDF5"), remedy)))
         } else if is_legacy {
             legacy::read(bytes)
         } else {
