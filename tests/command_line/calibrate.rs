@@ -176,21 +176,21 @@ fn wrong_plans_are_refused_by_name() {
     assert_eq!(
         plan(", slope_angle = 12.0", ""),
         "error: plan.toml: the run `film fluid=newtonian,particles=jittered,resolution=10` is in both `fit[0]` and \
-         `hold_out[0]`; what is predicted must not be fitted, so take it out of one"
+         `hold_out[0]`; remove it from one: held-out data must not be fitted"
     );
     assert_eq!(
         plan("uncertainty = 1.0, ", ""),
-        "error: plan.toml: `hold_out[0].data[0].uncertainty` is missing or not positive, but must be positive; give the \
-         standard deviation in the value's unit, or `factor` for one in logarithms; Bagnold does not invent one"
+        "error: plan.toml: `hold_out[0].data[0].uncertainty`: missing or not positive; give a standard deviation in \
+         the unit of the value, or `factor` for a logarithmic one"
     );
     assert_eq!(
         plan("x = \"y [m]\"", "x = \"y\""),
-        "error: plan.toml: `fit[0].data[0].x` is y, but must be a column with its unit, as the table's heading has it; such \
-         as \"y [m]\""
+        "error: plan.toml: `fit[0].data[0].x` is y, but must be a column with its unit, as in the heading of the table; write \
+         such as \"y [m]\""
     );
     assert_eq!(
         plan("evaluations = 14", "evaluations = 0"),
-        "error: plan.toml: `evaluations` is 0, but must be at least 1; 25 suffice for three parameters"
+        "error: plan.toml: `evaluations` is 0, but must be at least 1; give 25 for three parameters"
     );
     let unit = plan("unit = \"-\", uncertainty", "unit = \"m\", uncertainty");
     assert!(unit.ends_with("the case gives `particles_lost` in [-], but the data are in [m]; convert them"), "{unit}");
@@ -203,7 +203,7 @@ fn validation_data_must_differ_in_physics() {
     let same = |value: &str| {
         format!(
             "error: plan.toml: `hold_out[0]` has the conditions of `fit[0]` (slope_angle {value} and 10: the same within 1 \
-             %); what is predicted must differ in its physics, so hold out other conditions"
+             %); hold out data of other conditions"
         )
     };
     assert_eq!(plan("slope_angle = 10.000001"), same("10.000001"));
@@ -216,8 +216,8 @@ fn validation_data_must_differ_in_physics() {
     );
     assert_eq!(
         refusal(|text| text.replace("conditions = [\"slope_angle\"]\n", ""), str::to_owned),
-        "error: plan.toml: `hold_out[0].conditions` is missing, but must be given where `fit[0]` has the same case; name the \
-         parameters that make it differ from what is fitted, such as conditions = [\"slope_angle\"]"
+        "error: plan.toml: `hold_out[0].conditions` is missing, but must be given, because `fit[0]` has the same case; name the \
+         parameters that differ from the fit, such as conditions = [\"slope_angle\"]"
     );
     assert_eq!(
         refusal(|text| text.replace("conditions = [\"slope_angle\"]", "conditions = [\"slope_angel\"]"), str::to_owned),
@@ -227,7 +227,7 @@ fn validation_data_must_differ_in_physics() {
     assert_eq!(
         refusal(|text| text.replace("conditions = [\"slope_angle\"]", "conditions = [\"arrangement\"]"), str::to_owned),
         "error: plan.toml: `hold_out[0].conditions` is arrangement, but must be a number or a list of numbers of the case; name \
-         what is measured along, such as `slope_angle`"
+         a numerical parameter, such as `slope_angle`"
     );
 }
 
@@ -236,10 +236,7 @@ fn nothing_to_compare_with_is_refused() {
     let from = PLAN.find("data = [{ table").expect("there");
     let to = from + PLAN[from..].find("}]").expect("there") + 2;
     let empty = refusal(|text| text.replace(&PLAN[from..to], "data = []"), str::to_owned);
-    assert_eq!(
-        empty,
-        "error: plan.toml: `fit[0].data` is [], but must be at least one entry; say what the case is compared with"
-    );
+    assert_eq!(empty, "error: plan.toml: `fit[0].data`: no entry; add the data that the case is compared with");
 }
 
 #[test]
@@ -247,7 +244,7 @@ fn wrong_data_are_refused_by_name() {
     let data = |from: &'static str, to: &'static str| refusal(str::to_owned, move |text| text.replace(from, to));
     assert_eq!(
         data("u [m/s],uncertainty [m/s]", "u [cm],uncertainty [mm]"),
-        "error: mine.csv: `u` is [cm], but must be a unit of the same kind as [m/s]; mend the heading"
+        "error: mine.csv: `u` is [cm], but must be a unit that converts to [m/s]; correct the unit in the heading"
     );
     assert_eq!(
         data(",uncertainty [m/s]\n", "\n").split(';').next(),
@@ -255,18 +252,18 @@ fn wrong_data_are_refused_by_name() {
     );
     assert_eq!(
         data(",uncertainty [m/s]", ",weight"),
-        "error: mine.csv: `columns` is y [m], u [m/s], without uncertainty, but must be abscissa, quantity, \
-         uncertainty or repeats, with units; add a column, or columns.front = [\"a [cm]\", \"b [cm]\"]"
+        "error: mine.csv: `columns`: u [m/s] has no uncertainty; add a column `uncertainty [m/s]`, or give repeats: \
+         columns.front = [\"a [cm]\", \"b [cm]\"]"
     );
     assert_eq!(
         data("y [m],", "z [m],"),
-        "error: mine.csv: `columns` is z [m], u [m/s], uncertainty [m/s], but must be headings with `y` among them; rename one, \
+        "error: mine.csv: `columns`: no column `y` among z [m], u [m/s], uncertainty [m/s]; rename one, \
          or give { files = […], columns = { \"y\" = \"HEADING [UNIT]\" } }"
     );
     assert_eq!(
         data("0.126", "NaN"),
-        "error: mine.csv: `line 10` is \"NaN\" in column u [m/s], but must be a finite measured value; write one with a \
-         decimal point, or drop the row"
+        "error: mine.csv: `line 10`: \"NaN\" in column u [m/s] is not a measured value; write a finite number with a \
+         decimal point, or leave the row out"
     );
 }
 

@@ -51,7 +51,10 @@ fn a_dry_place_has_empty_cells_a_gap_in_its_curve_and_a_depth_of_nothing() {
     flume(&place);
     let front = metric(&place, &["run", "flume.toml", "--out", "out"], 0, "front");
     assert_eq!((front.value, front.verdict), (None, Verdict::Observed));
-    assert_eq!(front.remark.as_deref(), Some("nowhere on its line stands as much as `thickness` at the end"));
+    assert_eq!(
+        front.remark.as_deref(),
+        Some("at the end, the material is thinner than `thickness` everywhere on the line")
+    );
     let columns = columns(&place, "out");
     let wet = |heading: &str| columns[heading].iter().flatten().count();
     for quantity in ["pressure [Pa]", "pore pressure [Pa]", "velocity along x [m/s]"] {

@@ -23,7 +23,7 @@ fn a_profile_goes_to_standard_error_and_leaves_the_document_alone() {
     assert_eq!(document(&finished).case, "film");
     let text = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
     assert!(text.starts_with("profile: ") && text.contains("cores busy"), "{text}");
-    assert_eq!(text.matches(" µs a particle and step  film ").count(), 1, "one run: {text}");
+    assert_eq!(text.matches(" µs per particle and step  film ").count(), 1, "one run: {text}");
 }
 
 #[test]

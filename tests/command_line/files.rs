@@ -258,7 +258,7 @@ fn a_setting_of_a_report_changes_the_cases_that_have_its_field_and_says_so() {
     assert!(!place.path("store").exists());
     let refused = place.bagnold(&arguments).assert().code(2);
     let text = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
-    assert!(text.contains("`material.viscosity`: a field of no case of this report"), "{text}");
+    assert!(text.contains("`material.viscosity`: no case of this report has this field"), "{text}");
     let arguments = ["report", "--cases", "water-film,scene", "--set", "spacing=0.04", "--out", "out", "-q"];
     let done = place.bagnold(&arguments).assert();
     let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();

@@ -173,7 +173,7 @@ fn two_runs_are_compared_number_by_number() {
     assert_ne!(moved, text, "a limit of zero");
     std::fs::write(place.path("thicker/metrics.json"), moved).expect("written");
     let told = place.bagnold(&["compare", "first", "thicker", "--out", "moved"]).assert().code(0);
-    let line = "limits of 1 gates differ: other versions of the gates, or limits that follow from the runs";
+    let line = "limits of 1 gates differ: the versions of the gates differ, or limits depend on the runs";
     assert!(String::from_utf8_lossy(&told.get_output().stdout).contains(line));
     // of the same parameters only the gates can have moved
     let text = std::fs::read_to_string(place.path("again/metrics.json")).expect("written");
@@ -182,7 +182,7 @@ fn two_runs_are_compared_number_by_number() {
     std::fs::write(place.path("again/metrics.json"), moved).expect("written");
     let refused = place.bagnold(&["compare", "first", "again", "--out", "none"]).assert().code(2);
     let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
-    let words = format!("first: the gates of film were {gates} and are 00000000 in again: limits of 1 gates moved");
+    let words = format!("first: the gates of film were {gates} and are 00000000 in again: limits of 1 gates changed");
     assert!(message.contains(&words), "{message}");
     place.bagnold(&["compare", "first", "again", "--out", "across", "--across-gates"]).assert().code(0);
     let parameters = read(&place, "other/parameters.json");
@@ -197,7 +197,7 @@ fn two_runs_are_compared_number_by_number() {
     // one key apart: paired, with their numbers and curves
     let paired = place.bagnold(&["compare", "first", "finer", "--out", "paired"]).assert().code(0);
     let told = String::from_utf8_lossy(&paired.get_output().stdout).into_owned();
-    assert!(told.contains("film: runs with resolution=11 beside those with resolution=10"), "{told}");
+    assert!(told.contains("film: runs with resolution=11 compared with those with resolution=10"), "{told}");
     assert!(!told.contains("not in every folder"), "{told}");
     let figures = std::fs::read_dir(place.path("paired/figures")).expect("figures").count();
     assert!(figures >= 4, "{figures} files of profile and history");
@@ -209,10 +209,10 @@ fn two_runs_are_compared_number_by_number() {
     assert!(message.contains("first: has no variant of a case in common with water"), "{message}");
     let wrong = place.bagnold(&["compare", "first", "store", "--out", "none"]).assert().code(2);
     let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
-    assert!(message.contains("holds neither a run's metrics.json nor a report's"), "{message}");
+    assert!(message.contains("contains neither a run's metrics.json nor a report's"), "{message}");
     let own = place.bagnold(&["compare", "first", "again", "--out", "again"]).assert().code(2);
     let message = String::from_utf8_lossy(&own.get_output().stderr).into_owned();
-    assert!(message.contains("`--out` is again, but must be another folder than those that are compared"), "{message}");
+    assert!(message.contains("`--out` is again, but must be another folder than those compared"), "{message}");
     assert!(place.path("again/metrics.json").is_file(), "what is compared stays");
 }
 
@@ -319,10 +319,10 @@ fn a_series_of_the_front_of_a_scene_is_judged_by_what_its_file_says_was_measured
     place.file("flume.toml", without);
     let message = judge(2);
     assert!(
-        message.contains("mine.toml: `run 1.series.front` is given for scene flume, which measures no front"),
+        message.contains("mine.toml: `run 1.series.front`: scene `flume` has no gauge of kind \"front\""),
         "{message}"
     );
-    assert!(message.contains("add [[gauges]] with kind = \"front\""), "{message}");
+    assert!(message.contains("add one under [[gauges]] with name"), "{message}");
     place.file("flume.toml", &FLUME.replace("\"scene\"", "\"film\""));
     let message = judge(2);
     assert!(message.contains("`case` is \"scene\", but must be the case of flume.toml, \"film\""), "{message}");

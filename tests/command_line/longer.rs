@@ -74,7 +74,10 @@ fn a_run_that_cannot_continue_a_finished_one_says_why() {
         let place = Place::new();
         told(&place, 0.04, 0.004, 2);
         let told = told(&place, duration, interval, pictures);
-        assert!(told.contains(&format!("begins anew: the finished run {reason}")), "{reason}: {told}");
+        assert!(
+            told.contains(&format!("simulated again from the start: the finished run {reason}")),
+            "{reason}: {told}"
+        );
         assert!(!told.contains("resumes"), "{told}");
     }
     // another parameter makes another run
@@ -267,7 +270,7 @@ fn a_state_that_does_not_fit_is_refused_by_field_and_rule() {
     for (target, state, settings, message) in [
         (&level, "nowhere", vec!["duration=0.1"], "`--from`: \"nowhere\": it cannot be read"),
         (&level, "cut", vec!["duration=0.1"], "it is damaged"),
-        (&level, "text", vec!["duration=0.1"], "it is no bagnold checkpoint"),
+        (&level, "text", vec!["duration=0.1"], "it is not a bagnold checkpoint"),
         (&level, &of_model_b.display().to_string(), vec!["duration=0.1"], "it does not hold the state of a scene"),
         (&coarse, &state, vec!["duration=0.1"], "`spacing` is 0.005, but must be 0.0025"),
         (&level, &state, vec!["duration=0.1", "stiffness=60"], "`stiffness` is 60.0, but must be 50.0"),
@@ -277,7 +280,7 @@ fn a_state_that_does_not_fit_is_refused_by_field_and_rule() {
             vec!["duration=0.1", "sides.right={ periodic = 0.06 }"],
             "`sides.right.periodic` is 0.06, but must be 0.05",
         ),
-        (&level, &state, vec!["duration=0.01", "interval=0.001"], "`duration` is 0.01, but must be beyond 0.045"),
+        (&level, &state, vec!["duration=0.01", "interval=0.001"], "`duration` is 0.01 s, but must be later than 0.045"),
         (&level, &state, vec!["duration=0.1", wall], "wall particles where its walls have moved"),
         (&level, &state, vec!["duration=0.1", moved], "wall particles where its walls have moved"),
         (&level, &state, vec!["duration=0.1", bodies], "flow particles, but its scene has"),

@@ -153,6 +153,6 @@ fn decimal_commas_are_told_with_their_cell() {
     for (command, file, _) in COMMANDS {
         let refused = place.bagnold(&arguments(command, file, "out")).assert().code(2);
         let text = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
-        assert!(text.contains("front.csv: `line 2` is \"0,05\" in column t [s]"), "{file}: {text}");
+        assert!(text.contains("front.csv: `line 2`: \"0,05\" in column t [s]"), "{file}: {text}");
     }
 }

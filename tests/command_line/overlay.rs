@@ -53,20 +53,17 @@ fn measurements_that_cannot_be_read_are_refused_before_anything_is_simulated() {
     for (text, message) in [
         (
             "y/h [-],u [m/s],uncertainty [s]\n0.5,1,1\n",
-            "`uncertainty` is [s], but must be a unit of the same kind as [m/s]",
+            "`uncertainty` is [s], but must be a unit that converts to [m/s]",
         ),
         (
             "y/h [-],u [knots],uncertainty [m/s]\n0.5,1,1\n",
-            "`uncertainty` is [m/s], but must be in a unit that is known, such as [cm/s] or [kPa], and not in [knots]",
+            "`uncertainty` is [m/s], but must be a known unit, such as [cm/s] or [kPa]; [knots] is unknown",
         ),
         (
             "y/h [-],u [m/s],uncertainty [m/s]\n0.5,inf,1\n",
-            "`line 2` is \"inf\" in column u [m/s], but must be a finite measured value",
+            "`line 2`: \"inf\" in column u [m/s] is not a measured value",
         ),
-        (
-            "y/h [-],u [m/s]\n0.5,1\n",
-            "`columns` is y/h [-], u [m/s], without uncertainty, but must be abscissa, quantity, uncertainty or repeats",
-        ),
+        ("y/h [-],u [m/s]\n0.5,1\n", "`columns`: u [m/s] has no uncertainty"),
         ("# limit: -1\ny/h [-],u [m/s],uncertainty [m/s]\n0.5,1,1\n", "`# limit` is -1, but must be a positive number"),
     ] {
         let file = place.file("bad.csv", text);

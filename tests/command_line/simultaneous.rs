@@ -111,7 +111,7 @@ fn a_sweep_may_be_begun_by_several_and_all_see_the_whole() {
     assert_eq!((has.len(), has_not.len()), (MANY / 2, MANY / 2), "{all:?}");
     assert!(has.iter().all(|k| k % 2 == has[0] % 2), "{all:?}");
     for k in has_not {
-        let refusal = "error: sweep: holds a sweep of another plan; name another folder with --out\n";
+        let refusal = "error: sweep: contains a sweep of another plan; name another folder with --out\n";
         assert_eq!((all[k].0, all[k].1.as_str()), (Some(2), refusal));
     }
 }

@@ -117,7 +117,7 @@ fn a_study_fails_where_a_check_accepts_its_control() {
     let unknown = refused(&place, &(STUDY.to_owned() + &control.replace("front_at_the_end", "no_check")));
     assert!(unknown.contains("controls[0].rejects") && unknown.contains("front_at_the_end"), "{unknown}");
     let varied = refused(&place, &(STUDY.to_owned() + &control.replace("gravity = [0.0, -4.905]", "spacing = 0.01")));
-    assert!(varied.contains("controls[0].set.spacing") && varied.contains("first by `vary[0]`"), "{varied}");
+    assert!(varied.contains("controls[0].set.spacing") && varied.contains("leaves free: `vary[0]`"), "{varied}");
     let misspelt = refused(&place, &(STUDY.to_owned() + &control.replace("gravity = ", "gravty = ")));
     assert!(misspelt.contains("bad.toml") && misspelt.contains("did you mean `gravity`"), "{misspelt}");
     assert!(!misspelt.contains("--set"), "{misspelt}");
@@ -134,7 +134,7 @@ fn a_gate_of_a_study_fails_and_late_measurements_are_refused() {
     place.file("front.csv", &AHEAD.replace("80,", "800,"));
     let refused = place.run(&["study.toml", "--json", "--quiet"]).code(2);
     let told = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
-    assert!(told.contains("`duration` is 0.1, but must be at least 0.8"), "{told}");
+    assert!(told.contains("`duration` is 0.1 s, but must be at least 0.8 s"), "{told}");
 }
 
 #[test]
@@ -168,7 +168,10 @@ fn a_body_of_another_mass_than_its_particles_is_named_once_with_its_scene() {
     let polygon = FLUME.replace(from, "polygon\"\npoints = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.11], [0.0, 0.11]]\n");
     place.file("flume.toml", &polygon);
     let said = String::from_utf8_lossy(&place.run(&["study.toml"]).get_output().stderr).into_owned();
-    assert!(said.matches("of its mass").count() == 1 && said.contains("scene `flume`: `bodies[0]`: its"), "{said}");
+    assert!(
+        said.matches("of the body's mass").count() == 1 && said.contains("scene `flume`: `bodies[0]`: the"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -240,8 +243,7 @@ fn a_setting_of_what_the_study_varies_names_both_places() {
         let arguments = ["run", "study.toml", "--set", setting, "--out", "out", "--quiet"];
         let finished = place.bagnold(&arguments).assert().code(2);
         let message = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
-        let said =
-            format!("`{field}` is given twice, first by `{at}` in study.toml; change it there, or leave out --set");
+        let said = format!("`{at}` in study.toml gives `{field}`; change it there, or leave --set out");
         assert!(message.contains(&format!("`--set` is {setting}")) && message.contains(&said), "{message}");
     }
 }
@@ -253,9 +255,9 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         ("table = \"gauges\"", "table = \"gaugs\"", "`checks[0].table` is \"gaugs\", but must be a table of scene"),
         ("front: front [m]", "front [m]", "did you mean \"front: front [m]\"?"),
         ("path = \"spacing\"", "path = \"spacin\"", "bad.toml: `spacin`: unknown field"),
-        ("0.0125]", "0.02]", "`vary[0].values[1]` is 0.02, equal to `vary[0].values[0]`, but must be unique"),
+        ("0.0125]", "0.02]", "`vary[0].values[1]`: 0.02 is listed already as `vary[0].values[0]`"),
         ("0.0125]", "-1.0]", "bad.toml: `spacing` is -1"),
-        ("study = \"my-flume\"", "study = \"film\"", "unlike the name of a case"),
+        ("study = \"my-flume\"", "study = \"film\"", "different from all cases"),
         ("study = \"my-flume\"", "study = \"../x\"", "a name that a folder can have"),
         ("study = ", "study == ", "bad.toml: `line 1, column 8`"),
         // in a suite it would be passed over, and its gates with it
@@ -264,7 +266,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         (
             "at_most = 0.0",
             "at_most = \"2\"",
-            "`at_most`: invalid type: string \"2\", expected a number, without quotes",
+            "`at_most`: found string \"2\", expected a number, without quotes",
         ),
         ("base = \"flume.toml\"", "", "`case` is missing"),
         ("base = \"flume.toml\"", "case = \"scen\"", "`scen`: unknown case; did you mean `scene`?"),
@@ -277,7 +279,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         (
             "within = [0.0, 1.0]",
             "within = [0.0, 1.0]\nconfidence = \"unverified\"",
-            "`checks[0].confidence` is unverified, but must be more than that beside a limit",
+            "`checks[0].confidence` is unverified, but must be higher for a check with a limit",
         ),
         ("value = \"last\"", "", "exactly one of `metric`, `value`, `compare`, `order_of` and `difference_of`"),
         ("value = \"last\"", "value = \"last\"\nminus = \"t [s]\"", "a column in the unit of `column`, m"),
@@ -287,7 +289,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         ("compare = \"front.csv\"", "compare = \"flume.toml\"", "`checks[1].compare`: flume.toml: "),
         ("difference_of = \"front_at_the_end\"", "difference_of = \"front\"", "`checks[2].difference_of` is front"),
         ("\"spacing=0.02\",", "\"spacing=0.0125\",", "`checks[2].between` is [\"spacing=0.0125\", \"spacing=0.0125\"]"),
-        ("\"spacing=0.02\",", "\"spacing=0.01\",", "name the keys in which they differ"),
+        ("\"spacing=0.02\",", "\"spacing=0.01\",", "name the keys in which the two differ"),
         ("\"front_over_time\"", "\"Front over time\"", "a word of lower-case letters"),
         ("\"front_over_time\"", "\"front_at_the_end\"", "`checks[1].name` is front_at_the_end"),
     ] {
@@ -296,11 +298,11 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         assert!(message.contains(said), "{to}: {message}");
     }
     let variants = "[[variants]]\nname = \"a/b\"\n[[variants]]\nname = \"a b\"\n[[checks]]";
-    assert!(refused(&place, &STUDY.replacen("[[checks]]", variants, 1)).contains("as a part of file names"));
+    assert!(refused(&place, &STUDY.replacen("[[checks]]", variants, 1)).contains("as part of file names"));
     // their number is judged before each is compared with all others
     let many = format!("{}0.0125]", "0.0125, ".repeat(100_000));
     assert!(
-        refused(&place, &STUDY.replacen("0.0125]", &many, 1)).contains("`vary` is 100002, but must be at most 1000")
+        refused(&place, &STUDY.replacen("0.0125]", &many, 1)).contains("`vary`: 100002 runs, above the limit of 1000")
     );
     let whole = STUDY.split("[[checks]]").next().expect("a beginning");
     assert!(refused(&place, whole).contains("`checks` is []"));
@@ -310,7 +312,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
             .contains("`checks[3].order_of` is front, but must be the name of an earlier check")
     );
     let only = place.bagnold(&["run", "study.toml", "--only", "spacing=0.02"]).assert().code(2);
-    assert!(String::from_utf8_lossy(&only.get_output().stderr).contains("absent beside a study"));
+    assert!(String::from_utf8_lossy(&only.get_output().stderr).contains("not available for a study"));
 }
 
 #[test]
@@ -375,7 +377,7 @@ fn a_suite_is_one_report_with_a_baseline_of_its_own() {
         assert!(message.contains(said), "{message}");
     };
     place.file("snapshots/known_failures.toml", "");
-    refused("known_failures.toml`: its name is expected_failures.toml from now on; rename it");
+    refused("known_failures.toml`: outdated name; rename it to expected_failures.toml");
     std::fs::remove_file(place.path("snapshots/known_failures.toml")).expect("there");
     std::fs::write(place.path("balances.toml"), b"\xff\xfes\0").expect("writable");
     refused("balances.toml: cannot be read (text in UTF-16, not in UTF-8); save it as plain text");
@@ -385,7 +387,7 @@ fn a_suite_is_one_report_with_a_baseline_of_its_own() {
     refused("balances.snap: `study` is balances, but must be the name of a study of the suite; restore the study");
     std::fs::create_dir(place.path("more")).expect("writable");
     place.file("more/balances.toml", metric);
-    refused("more/balances.toml: `study`: in a folder below the suite; move it up");
+    refused("more/balances.toml: `study`: in a subfolder of the suite; move it into");
     std::fs::rename(place.path("more/balances.toml"), place.path("balances.TOML")).expect("movable");
     place.file("snapshots/expected_failures.toml", "");
     report(&[]).code(0);
@@ -416,6 +418,9 @@ fn a_study_that_cannot_fail_is_rejected_with_its_warnings() {
     place.file("mine.toml", &format!("{check}at_most = 1e9\nreference = 2.0\nsource = 'a book'\nreason = 'wide'\n"));
     let finished = place.run(&["mine.toml", "--deny-warnings"]).code(2);
     let said = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
-    assert!(said.contains("check `flux`: the limit ≤ 1000000000 reaches farther"), "{said}");
+    assert!(
+        said.contains("check `flux`: the limit ≤ 1000000000 allows an error above 100 % of the reference"),
+        "{said}"
+    );
     assert!(said.contains("no control shows that a check can fail") && said.contains("2 of the warnings"), "{said}");
 }

@@ -49,7 +49,7 @@ fn a_sweep_that_was_killed_gives_the_same_table_and_repeats_nothing() {
     let plan = place.file("plan.toml", PLAN);
     let whole = place.bagnold(&["-q", "sweep", &plan, "--out", "whole"]).assert().code(3);
     let printed = String::from_utf8_lossy(&whole.get_output().stdout).into_owned();
-    assert!(printed.starts_with("8 of 12 runs done, 4 failed (failures.csv says why)\n"), "{printed}");
+    assert!(printed.starts_with("8 of 12 runs done, 4 failed (reasons in failures.csv)\n"), "{printed}");
 
     assert_eq!(kill_and_resume(&place, "sweep", &plan, records), 3);
     assert_same_files(&place, "whole", &["results.csv", "failures.csv", "manifest.json"]);
@@ -99,7 +99,7 @@ fn failures_keep_their_reason() {
     assert_eq!(
         failures,
         "run,case,tier,viscosity,slope_angle,reason\n\
-         3,film,quick,0.5,95.0,\"plan.toml: `slope_angle` is 95, but must be inside (−90°, 90°); give the angle between \
+         3,film,quick,0.5,95.0,\"plan.toml: `slope_angle` is 95, but must be above −90° and below 90°; give the angle between \
          the slope and the horizontal in degrees\"\n"
             .replace("plan.toml: ", "")
     );
@@ -148,7 +148,7 @@ fn a_metric_that_no_run_has_is_named() {
     let plan = place.file("plan.toml", &plan.replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]"));
     let done = place.bagnold(&["sweep", &plan, "--out", "out"]).assert().code(3);
     let said = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
-    assert!(said.contains("no run gives the metric `particles_list`") && !said.contains("`particles_lost`"), "{said}");
+    assert!(said.contains("no run has the metric `particles_list`") && !said.contains("`particles_lost`"), "{said}");
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn a_sweep_without_slurm_says_what_is_missing() {
         .code(2);
     assert_eq!(
         String::from_utf8_lossy(&refused.get_output().stderr),
-        "error: slurm: `sbatch` is not on this machine; log in to the cluster, or use --engine local\n"
+        "error: slurm: `sbatch` is not installed on this machine; log in to the cluster, or use --engine local\n"
     );
 }
 
@@ -217,11 +217,11 @@ fn a_folder_that_cannot_be_written_or_holds_a_sweep_is_refused() {
     let mixed = place.bagnold(&["-q", "sweep", &other, "--out", "out"]).assert().code(2);
     assert_eq!(
         String::from_utf8_lossy(&mixed.get_output().stderr),
-        "error: out: holds a sweep of another plan; name another folder with --out\n"
+        "error: out: contains a sweep of another plan; name another folder with --out\n"
     );
     let none = place.bagnold(&["sweep", "collect", "store"]).assert().code(2);
     let message = String::from_utf8_lossy(&none.get_output().stderr).into_owned();
-    assert!(message.contains("holds no sweep (no manifest.json)"), "{message}");
+    assert!(message.contains("no sweep in this folder (no manifest.json)"), "{message}");
 }
 
 /// Given again, it ends as it did, and says where its results are.
@@ -242,7 +242,7 @@ fn a_sweep_that_is_done_runs_nothing_and_says_so() {
             assert_eq!(
                 String::from_utf8_lossy(&again.get_output().stdout),
                 format!(
-                    "all {all} runs were done before: nothing was run; to run them again, name another folder with --out\n\
+                    "all {all} runs are finished already; to run them again, name another folder with --out\n\
                      {first}"
                 )
             );

@@ -53,8 +53,8 @@ fn output_that_cannot_be_written_is_an_error() {
         assert_eq!(ended.status.code(), Some(2), "{arguments:?}: {said}");
         assert_eq!(
             said,
-            "error: standard output: cannot be written (no space left on device); free space, or send it elsewhere: what \
-             goes into folders was written\n",
+            "error: standard output: cannot be written (no space left on device); free space, or redirect it; the folders of \
+             results were written\n",
             "{arguments:?}"
         );
     }
