@@ -37,7 +37,7 @@ fn what_was_compared_with_measurements_is_told_from_what_was_not() {
         let finished = Place::new().bagnold(&options).assert().code(0);
         String::from_utf8_lossy(&finished.get_output().stdout).into_owned()
     };
-    assert!(of("0.046", "0.02").contains("\ninside of what was compared"));
+    assert!(of("0.046", "0.02").contains("\ninside the range compared"));
     let deep = of("0.2", "0.02");
     assert!(deep.contains("outside of what was compared") && deep.contains("fewer than ten runs"), "{deep}");
     assert!(of("0.1", "0.0004").contains("no motion"));

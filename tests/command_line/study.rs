@@ -263,11 +263,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         // in a suite it would be passed over, and its gates with it
         ("study = ", "stduy = ", "unknown field `stduy`, expected one of `study`"),
         ("at_most = 0.0", "at_most = -2.0", "`checks[1].at_most` is -2, but must be 0 or more"),
-        (
-            "at_most = 0.0",
-            "at_most = \"2\"",
-            "`at_most`: found string \"2\", expected a number, without quotes",
-        ),
+        ("at_most = 0.0", "at_most = \"2\"", "`at_most`: found string \"2\", expected a number, without quotes"),
         ("base = \"flume.toml\"", "", "`case` is missing"),
         ("base = \"flume.toml\"", "case = \"scen\"", "`scen`: unknown case; did you mean `scene`?"),
         ("base = \"flume.toml\"", "base = \"no.toml\"", "no.toml: cannot be read"),

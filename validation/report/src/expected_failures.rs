@@ -231,7 +231,7 @@ mod tests {
             (LIST.replace("best_value = 0.9", "best_value = 0.9\nblame = \"x\""), "blame"),
             (LIST.replace("slip at the wall", " "), "date and a reason"),
             (LIST.replace("0.9", "nan"), "finite best_value"),
-            (LIST.replace("slip at the wall", "see the next entry"), "say the reason again"),
+            (LIST.replace("slip at the wall", "see the next entry"), "repeat the reason"),
             (LIST.repeat(2), "listed twice"),
             (LIST.replace("date = \"2025-01-31\"\n", ""), "date"),
         ] {

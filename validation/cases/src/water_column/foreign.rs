@@ -118,7 +118,7 @@ mod tests {
     fn a_front_without_its_times_is_refused_and_nothing_is_nothing() {
         assert!(seen(&[]).expect("nothing").is_none());
         let error = seen(&[("front", vec![0.1])]).expect_err("no times").to_string();
-        assert!(error.contains("`series.time` is absent"), "{error}");
+        assert!(error.contains("`series.time` is missing"), "{error}");
     }
 
     #[test]

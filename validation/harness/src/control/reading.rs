@@ -87,9 +87,9 @@ mod tests {
         for (text, expected) in [
             (ROW.repeat(2), "twice"),
             (ROW.replace("set = [\"x=1\"]\n", ""), "either `set`"),
-            (ROW.replace("rejected_by = [\"front\"]\n", ""), "meant for no metric"),
+            (ROW.replace("rejected_by = [\"front\"]\n", ""), "names no metric"),
             (ROW.replace("error", "mistake"), "mistake"),
-            (format!("series = [\"friction\"]\n{ROW}"), "\"friction\", which is none"),
+            (format!("series = [\"friction\"]\n{ROW}"), "\"friction\", which does not exist"),
         ] {
             let error = parse("x.toml", &text).expect_err("refused").to_string();
             assert!(error.contains(expected) && error.contains("controls/x.toml"), "{error}");

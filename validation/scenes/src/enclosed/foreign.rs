@@ -204,6 +204,6 @@ mod tests {
         assert!(message.contains("has several gauges of kind \"front\": "), "{message}");
         assert!(observe(&own, &ExternalData::default()).expect("nothing").is_none());
         let no_front = ExternalData { series: [("time".to_owned(), vec![0.0])].into(), ..ExternalData::default() };
-        assert!(observe(&own, &no_front).expect_err("no front").to_string().contains("`series.front` is absent"));
+        assert!(observe(&own, &no_front).expect_err("no front").to_string().contains("`series.front`: missing"));
     }
 }

@@ -328,7 +328,7 @@ mod tests {
     fn invalid_walls_name_the_field() {
         let o = (0.0, 0.0, 0.0);
         let bent = SpaceWall::of_quads("bent", vec![(o, (1.0, 0.0, 0.0), (1.0, 1.0, 0.2), (0.0, 1.0, 0.0))]);
-        assert!(bent.check(0.1, 1.0).expect_err("bent").to_string().starts_with("`quads[0]` is not plane"));
+        assert!(bent.check(0.1, 1.0).expect_err("bent").to_string().starts_with("`quads[0]`: not planar"));
         let crossed = SpaceWall::of_quads("x", vec![(o, (1.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))]);
         let message = crossed.check(0.1, 1.0).expect_err("crossed").to_string();
         assert!(message.starts_with("`quads[0]`: edges that cross or turn back; give"), "{message}");

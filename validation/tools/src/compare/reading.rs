@@ -203,7 +203,7 @@ mod tests {
     fn a_folder_without_results_is_refused() {
         let folder = tempfile::tempdir().expect("temporary folder");
         let error = Results::read(&[folder.path().to_owned()]).expect_err("empty");
-        assert!(error.to_string().contains("holds neither a run's metrics.json nor"), "{error}");
+        assert!(error.to_string().contains("contains neither a run's metrics.json nor"), "{error}");
         std::fs::write(folder.path().join("metrics.json"), "{}").expect("writable");
         let error = Results::read(&[folder.path().to_owned()]).expect_err("damaged");
         assert!(error.to_string().contains("metrics.json: damaged (missing field"), "{error}");

@@ -117,8 +117,8 @@ mod tests {
         let message = flow.check().expect_err("no density").to_string();
         assert_eq!(
             message,
-            "`bulk_density` is 0, but must be positive with the law \"bingham\"; the law has no grain density: give that of \
-             the bulk in kg/m³, such as 1500"
+            "`bulk_density` is 0, but must be positive with the law \"bingham\"; give it in kg/m³, such as 1500, because the \
+             law has no grain density"
         );
         flow.bulk.bulk_density = 1500.0;
         assert!(flow.check().is_ok());

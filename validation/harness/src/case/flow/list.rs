@@ -368,8 +368,7 @@ mod tests {
         }
         assert_eq!(
             message("[0.5, 1.0, 1]"),
-            "`vary[0].values[2]` is 1, equal to `vary[0].values[1]`, but must be unique; list every value once: equal ones are \
-             the same run"
+            "`vary[0].values[2]`: 1 is listed already as `vary[0].values[1]`; list each value once"
         );
         for equal in ["[0.0, -0.0]", "[\"a\", \"a\"]", "[[1, 2.0], [1.0, 2]]", "[{ a = 1 }, { a = 1.0 }]"] {
             assert!(message(equal).contains("unique"), "{equal}");

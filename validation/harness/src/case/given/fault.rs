@@ -94,5 +94,13 @@ pub(in crate::case) fn nearest_path(path: &str, known: &[&[String]]) -> Option<S
     if let Some(namesakes) = known.iter().map(namesakes).find(|found| (1..=MOST_NAMESAKES).contains(&found.len())) {
         return Some(namesakes.join("` or `"));
     }
-    known.iter().find_map(|paths| nearest(path, paths.iter().map(String::as_str).filter(|other| *other != path)))
+    // the table that the path is in is no suggestion
+    let is_above = |paths: &[String], other: &str| {
+        let below = |own: &String| own.strip_prefix(other).is_some_and(|rest| rest.starts_with('.'));
+        path.starts_with(other) && paths.iter().any(below)
+    };
+    known.iter().find_map(|paths| {
+        let others = paths.iter().map(String::as_str);
+        nearest(path, others.filter(|other| *other != path && !is_above(paths, other)))
+    })
 }

@@ -163,7 +163,7 @@ mod tests {
             Pendulum.prepare(Tier::Quick, &changes).map(|_| ()).map_err(|error| error.to_string())
         };
         let large = of(&[Variant::of("steps", 900_000)]).expect_err("the long one is chosen");
-        assert!(large.contains("but must be less demanding"), "{large}");
+        assert!(large.contains("above the limit of"), "{large}");
         assert_eq!(of(&[Variant::of("steps", 10)]), Ok(()), "the long one is not chosen");
         assert!(of(&[]).is_err());
     }
@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn a_tier_that_is_beyond_a_limit_is_named_itself() {
         let message = refused(&[], Limits { core_hours: 1e-12, ..LIMITS });
-        assert!(message.starts_with("`tier` is quick, but must be less demanding"), "{message}");
+        assert!(message.starts_with("`tier`: quick needs "), "{message}");
     }
 
     #[test]

@@ -101,10 +101,10 @@ fn unsupported_vtk_is_refused_by_its_format() {
     let parallel = "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid/></VTKFile>";
     let blocks = "<VTKFile type=\"vtkMultiBlockDataSet\"><vtkMultiBlockDataSet/></VTKFile>";
     for (bytes, name, said) in [
-        (&b"\x89HDF\r\n\x1a\n\0\0"[..], "a.vtkhdf", "`file` is in HDF5"),
-        (&b"\x89HDF\r\n\x1a\n\0\0"[..], "a.vtu", "`file` is in HDF5"),
-        (parallel.as_bytes(), "a.pvtu", "`file` is in several files"),
-        (blocks.as_bytes(), "a.vtm", "`file` is a collection of grids, vtkMultiBlockDataSet"),
+        (&b"\x89HDF\r\n\x1a\n\0\0"[..], "a.vtkhdf", " of VTK: in HDF5"),
+        (&b"\x89HDF\r\n\x1a\n\0\0"[..], "a.vtu", " of VTK: in HDF5"),
+        (parallel.as_bytes(), "a.pvtu", " of VTK: in several files"),
+        (blocks.as_bytes(), "a.vtm", " of VTK: a collection of grids, vtkMultiBlockDataSet"),
     ] {
         let message = PointArrays::parse(bytes, Path::new(name)).expect_err("refused").to_string();
         assert!(message.contains(said), "{message}");

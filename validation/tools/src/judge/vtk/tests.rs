@@ -78,7 +78,7 @@ fn invalid_vtk_is_refused_without_a_panic() {
     {
         for name in ["a.vtu", "a.vtk"] {
             let message = PointArrays::parse(text.as_bytes(), Path::new(name)).expect_err("no grid").to_string();
-            assert!(message.starts_with(&format!("{name}: `file` is ")), "{message}");
+            assert!(message.starts_with(&format!("{name}: `file`: not an ")), "{message}");
         }
     }
 }
@@ -156,7 +156,7 @@ fn a_count_beyond_the_file_is_refused_before_memory_is_asked_for() {
         [(legacy, "a.vtk"), (binary_legacy, "a.vtk"), (text, "a.vtu"), (encoded, "a.vtu"), (compressed, "a.vtu")]
     {
         let message = PointArrays::parse(text.as_bytes(), Path::new(name)).expect_err("no such count").to_string();
-        assert!(message.starts_with(&format!("{name}: `file` is ")), "{message}");
+        assert!(message.starts_with(&format!("{name}: `file`: not an ")), "{message}");
     }
 }
 

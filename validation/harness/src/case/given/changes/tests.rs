@@ -258,7 +258,7 @@ fn laws_that_do_not_exist_or_lack_a_parameter_are_refused() {
     );
     assert_eq!(
         message("", &["material.law=newtonian", "material.viscosity=1", "material.static_friction=0.4"]),
-        "`--set material.static_friction=0.4`: `material.static_friction`: unknown field; did you mean `material.viscosity`? `bagnold show layer` prints all fields"
+        "`--set material.static_friction=0.4`: `material.static_friction`: unknown field; `bagnold show layer` prints all fields"
     );
     assert_eq!(
         message("", &["material.law=newtonian", "material.viscosity=-1"]),
