@@ -186,7 +186,8 @@ mod tests {
             let settings = [format!("{path}.law=newtonian"), format!("{path}.viscosity=1")];
             prepared(case, &settings.each_ref().map(String::as_str)).err().unwrap_or_default()
         };
-        let bagnold = "`material.law` is \"newtonian\", but must be \"mu-i\"; Bagnold's profile";
+        let bagnold =
+            "`material.law` is \"newtonian\", but must be \"mu-i\"; choose it: the case's reference, Bagnold's profile";
         assert!(refusal("bagnold", "material").starts_with(bagnold));
         let thickness = refusal("flow-thickness", "material");
         let laws = "`material.law` is \"newtonian\", but must be \"mu-i\" or \"nonlocal-mu-i\"";

@@ -83,10 +83,10 @@ mod tests {
         }
         for name in ["fn", "self", "serde", "bagnold_solver", "test", "build"] {
             let refusal = refusal(name, NewCrate::Case).unwrap_or_default();
-            assert!(refusal.contains("no word of Rust"), "{name}: {refusal}");
+            assert!(refusal.contains("neither a Rust keyword"), "{name}: {refusal}");
         }
-        assert!(refusal("mu-i", NewCrate::Law).is_some_and(|text| text.contains("no law that is there")));
-        assert!(refusal("film", NewCrate::Case).is_some_and(|text| text.contains("no case that is there")));
+        assert!(refusal("mu-i", NewCrate::Law).is_some_and(|text| text.contains("different from existing laws")));
+        assert!(refusal("film", NewCrate::Case).is_some_and(|text| text.contains("different from existing cases")));
         assert_eq!(refusal("film", NewCrate::Law), None);
     }
 }
