@@ -351,6 +351,12 @@ mod tests {
         assert!(SpaceWall::of_quads("none", Vec::new()).check(0.1, 1.0).is_err());
         let inverse =
             SpaceWall { boxes: vec![((1.0, 0.0, 0.0), (0.0, 1.0, 1.0))], ..SpaceWall::of_quads("box", Vec::new()) };
-        assert!(inverse.check(0.1, 1.0).expect_err("no inside").to_string().starts_with("`boxes[0]` is (0, 1, 1)"));
+        assert!(
+            inverse
+                .check(0.1, 1.0)
+                .expect_err("no inside")
+                .to_string()
+                .starts_with("`boxes[0]`: upper corner (0, 1, 1) m")
+        );
     }
 }

@@ -133,7 +133,7 @@ mod tests {
             of("bodies = [{ material = { static_friction = 27 } }]")
                 .contains("bodies[0].material.static_friction` is 27, but usually")
         );
-        assert!(of("slope_angle = 0.436").ends_with("; 0.436 in radians is 24.98"));
+        assert!(of("slope_angle = 0.436").ends_with("; 0.436 in radians is 24.98 °"));
         assert_eq!(of("gravity = [4.9, -8.5]\nmaterial = { grain_diameter = 0.0005, bulk_density = 0 }"), "");
     }
 }
