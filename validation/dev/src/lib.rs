@@ -27,7 +27,6 @@ use std::process::ExitCode;
 mod pendulum;
 
 /// The program: reads its arguments, prints on standard output and error.
-#[must_use]
 pub fn main() -> ExitCode {
     match Arguments::try_parse() {
         Ok(Arguments { command, verbosity }) => conduct(verbosity, *REGISTRY, |session| execute(&command, session)),

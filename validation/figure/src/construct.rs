@@ -31,7 +31,6 @@ impl Axis {
 
 impl Panel {
     /// An empty panel.
-    #[must_use]
     pub fn new(title: &str, x: Axis, y: Axis) -> Self {
         Self { title: title.to_owned(), x, y, bands: Vec::new(), series: Vec::new(), field: None, opposite: None }
     }
@@ -88,7 +87,6 @@ impl Panel {
 
 impl Field {
     /// Particles of a diameter in axis units, coloured between two limits.
-    #[must_use]
     pub fn new(
         label: &str,
         diameter: f64,
@@ -108,7 +106,6 @@ impl Field {
 
 impl Series {
     /// A series without error bars.
-    #[must_use]
     pub fn new(label: &str, mark: Mark, colour: usize, points: Vec<(f64, f64)>) -> Self {
         Self { label: label.to_owned(), mark, colour, points, error: Vec::new() }
     }

@@ -45,14 +45,12 @@ impl FigureFormat {
     pub const SMALL: Self = Self { sheet: 640.0, scale: 1.0, paper: None };
 
     /// For paper: width `[mm]`, axis labels `[pt]` and resolution of the raster file `[dpi]`.
-    #[must_use]
     pub fn paper(width: f64, letters: f64, resolution: f64) -> Self {
         let sheet = (LABEL * width / (letters * POINT)).round();
         Self { sheet, scale: (width / 25.4 * resolution).round() / sheet, paper: Some(width) }
     }
 
     /// Width of the raster file `[px]`.
-    #[must_use]
     pub fn pixels(self) -> f64 {
         (self.sheet * self.scale).round()
     }

@@ -4,7 +4,6 @@ use std::io::Read;
 use std::path::Path;
 
 /// Width and height of a PNG or GIF `[px]`, as its first bytes say; nothing for anything else.
-#[must_use]
 pub fn size_of(picture: &Path) -> Option<(u32, u32)> {
     let mut start = [0; 24];
     std::fs::File::open(picture).ok()?.read_exact(&mut start).ok()?;

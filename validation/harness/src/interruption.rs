@@ -13,13 +13,11 @@ pub struct Signal(i32);
 
 impl Signal {
     /// Name of the signal, such as SIGTERM.
-    #[must_use]
     pub fn name(self) -> &'static str {
         signal_name(self.0).unwrap_or("a signal")
     }
 
     /// The exit code of a program that it has ended: 128 and its number, as shells have it.
-    #[must_use]
     pub fn exit_code(self) -> u8 {
         u8::try_from(128 + self.0).unwrap_or(u8::MAX)
     }
@@ -65,7 +63,6 @@ fn register(flags: &Flags, signal: i32) -> std::io::Result<()> {
 }
 
 /// The signal that has asked the program to end.
-#[must_use]
 pub fn asked() -> Option<Signal> {
     let flags = FLAGS.get().filter(|flags| flags.asked.load(Ordering::SeqCst))?;
     i32::try_from(flags.number.load(Ordering::SeqCst)).ok().map(Signal)

@@ -2,19 +2,16 @@
 //! pages, terminals and sentences.
 
 /// `value` with four significant digits, shorter where it is exact, such as `0.7`, `12.35` or `1.235×10⁻⁵`.
-#[must_use]
 pub fn four_digits(value: f64) -> String {
     significant(value, 4, &TYPESET)
 }
 
 /// `value` with two significant digits, for changes and margins.
-#[must_use]
 pub fn two_digits(value: f64) -> String {
     significant(value, 2, &TYPESET)
 }
 
 /// Two values with as many significant digits, four at least, as show their difference to a tenth of it; equal ones have four.
-#[must_use]
 pub fn distinct_digits(value: f64, other: f64) -> (String, String) {
     const FEWEST: usize = 4;
     // more do not tell two numbers of double precision apart
@@ -30,13 +27,11 @@ pub fn distinct_digits(value: f64, other: f64) -> (String, String) {
 }
 
 /// A value with its unit: `0.56 %`, `0.1 m/s`; the unit `-` is not written.
-#[must_use]
 pub fn with_unit(value: f64, unit: &str) -> String {
     in_unit(&four_digits(value), unit)
 }
 
 /// Digits with their unit; the unit `-` is not written.
-#[must_use]
 pub fn in_unit(digits: &str, unit: &str) -> String {
     match unit {
         "" | "-" => digits.to_owned(),
@@ -45,7 +40,6 @@ pub fn in_unit(digits: &str, unit: &str) -> String {
 }
 
 /// A count in groups of three digits.
-#[must_use]
 pub fn count(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3 * 3);
@@ -59,19 +53,16 @@ pub fn count(number: u64) -> String {
 }
 
 /// Digits of a terminal's column: zeros are kept and exponents written as `1.000e-9`, so that numbers line up.
-#[must_use]
 pub fn aligned_digits(value: f64) -> String {
     significant(value, 4, &Style { plain: -3..5, zeros: Zeros::Kept, typeset: false })
 }
 
 /// Digits of a sentence: no zeros at the end, exponents written as `1.5e-7`.
-#[must_use]
 pub fn short_digits(value: f64, digits: usize) -> String {
     significant(value, digits, &Style { plain: -4..6, zeros: Zeros::Dropped, typeset: false })
 }
 
 /// An integer in superscript digits.
-#[must_use]
 pub fn superscript(number: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     number

@@ -58,13 +58,11 @@ pub enum Change {
 
 impl Change {
     /// Whether the value has moved: by more than it may, to another unit or to the other side of its gate.
-    #[must_use]
     pub fn has_moved(&self) -> bool {
         matches!(self, Self::Moved { .. } | Self::UnitChanged { .. } | Self::VerdictChanged { .. })
     }
 
     /// Change of the value in tolerances `[-]`; infinite if it cannot be compared, none if it is new.
-    #[must_use]
     pub fn in_tolerances(&self) -> Option<f64> {
         match *self {
             Self::New => None,
@@ -80,7 +78,6 @@ impl Change {
 
 impl Baseline {
     /// The baseline that `metrics` of `case` would make.
-    #[must_use]
     pub fn of(case: &str, metrics: &[Metric]) -> Self {
         let mut baseline = Self::default();
         for metric in metrics {
@@ -108,13 +105,11 @@ impl Baseline {
     }
 
     /// Whether it holds no value.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.values.is_empty()
     }
 
     /// The value of `key`.
-    #[must_use]
     pub fn value(&self, key: &MetricKey) -> Option<f64> {
         self.values.get(key).map(|entry| entry.value)
     }
@@ -127,13 +122,11 @@ impl Baseline {
     }
 
     /// The commit at which the values of a case were made, as short as a page shows it; empty where it is not known.
-    #[must_use]
     pub fn commit(&self, case: &str) -> String {
         self.commits.get(case).map_or_else(String::new, |commit| short_commit(commit))
     }
 
     /// The path of a case's file in the folder of the baseline.
-    #[must_use]
     pub fn path(folder: &Path, case: &str, tier: Tier) -> PathBuf {
         folder.join(tier.name()).join(format!("{case}.snap"))
     }
@@ -172,7 +165,6 @@ impl Baseline {
     }
 
     /// The values of `case` as a snapshot's content, a line each in the order of the case.
-    #[must_use]
     pub fn content(&self, case: &str) -> String {
         let mut entries: Vec<_> = self.values.iter().filter(|(key, _)| key.case == case).collect();
         entries.sort_by_key(|(_, entry)| entry.line);
@@ -198,7 +190,6 @@ impl Baseline {
 
     /// Change of `metric` of `case`, which has moved where |value − baseline| > tolerance · |baseline| + floor, by more than the
     /// rounding in the file; or its unit or verdict is another.
-    #[must_use]
     pub fn change(&self, case: &str, metric: &Metric) -> Change {
         let Some(entry) = self.values.get(&MetricKey::of(case, metric)) else { return Change::New };
         if entry.unit != metric.unit {
@@ -218,7 +209,6 @@ impl Baseline {
     }
 
     /// Everything in which `metrics` of `case` differ from the baseline, a sentence each: moved, new and vanished.
-    #[must_use]
     pub fn differences(&self, case: &str, metrics: &[Metric]) -> Vec<String> {
         let difference = |metric: &Metric| {
             let what = match self.change(case, metric) {
@@ -243,7 +233,6 @@ impl Baseline {
     }
 
     /// Gates of `case` in the baseline that do not judge `metrics`, with what took each away: a gate that vanishes is a failure.
-    #[must_use]
     pub fn not_judged(&self, case: &str, metrics: &[Metric]) -> Vec<(MetricKey, String)> {
         let own = self.gates().filter(|key| key.case == case);
         let gone = own.filter_map(|key| {
@@ -267,7 +256,6 @@ impl Baseline {
     }
 
     /// Baseline values of `case` that `metrics` no longer contain: a metric that vanishes is a regression too.
-    #[must_use]
     pub fn vanished(&self, case: &str, metrics: &[Metric]) -> Vec<MetricKey> {
         let measured: BTreeSet<MetricKey> = metrics.iter().map(|metric| MetricKey::of(case, metric)).collect();
         self.values.keys().filter(|key| key.case == case && !measured.contains(key)).cloned().collect()

@@ -25,7 +25,6 @@ pub enum CommittedValues {
 
 impl CommittedValues {
     /// The folder with the baseline and the expected failures.
-    #[must_use]
     pub fn folder(&self) -> PathBuf {
         match self {
             Self::OfCases => {

@@ -35,7 +35,6 @@ pub enum ModelError {
 
 impl ModelError {
     /// Its size; 0 where nothing is known.
-    #[must_use]
     pub fn size(self) -> f64 {
         match self {
             Self::Within(size) | Self::AtLeast(size) | Self::BeyondKnown(size) => size,
@@ -52,33 +51,28 @@ impl<'r> Comparison<'r> {
     }
 
     /// The reference, in the metric's unit.
-    #[must_use]
     pub fn measured(&self) -> f64 {
         self.metric.value - self.error
     }
 
     /// u_val: the root of the sum of squares of what is known.
-    #[must_use]
     pub fn uncertainty(&self) -> Option<f64> {
         self.metric.uncertainty.standard()
     }
 
     /// u_val over the size of the reference: none where the reference is 0 or nothing is
     /// known.
-    #[must_use]
     pub fn level(&self) -> Option<f64> {
         self.uncertainty().map(|uncertainty| uncertainty / self.measured().abs()).filter(|level| level.is_finite())
     }
 
     /// Parts of the uncertainty that are unknown.
-    #[must_use]
     pub fn unknown(&self) -> Vec<ComparisonPart> {
         let is_unknown = |part: &ComparisonPart| self.metric.uncertainty.of_part(*part).is_none();
         ComparisonPart::ALL.into_iter().filter(is_unknown).collect()
     }
 
     /// Statement of this comparison about the error of the model.
-    #[must_use]
     pub fn model_error(&self) -> ModelError {
         match self.uncertainty() {
             None => ModelError::Unknown,
@@ -93,7 +87,6 @@ impl<'r> Comparison<'r> {
 pub type QuantityComparisons<'r> = ((&'r str, &'r str), Vec<Comparison<'r>>);
 
 /// All comparisons of a report, by quantity.
-#[must_use]
 pub fn comparisons(report: &Report) -> Vec<QuantityComparisons<'_>> {
     let mut groups: BTreeMap<(&str, &str), Vec<Comparison<'_>>> = BTreeMap::new();
     for case in &report.cases {

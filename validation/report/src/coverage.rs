@@ -33,7 +33,6 @@ impl Grade {
         [Self::Measured, Self::Converging, Self::Exact, Self::Statement, Self::Balance, Self::Baseline];
 
     /// The letter that stands for it in a cell, and its meaning.
-    #[must_use]
     pub fn letter_and_meaning(self) -> (char, &'static str) {
         match self {
             Self::Measured => ('M', "gates against measurements, published fits or external simulations"),
@@ -82,7 +81,6 @@ pub struct OptionCoverage {
 
 impl OptionCoverage {
     /// Whether no case of the report uses it.
-    #[must_use]
     pub fn is_unused(&self) -> bool {
         self.cases.iter().all(Option::is_none)
     }
@@ -128,13 +126,11 @@ pub struct Declarations {
 
 impl Declarations {
     /// Whether a parameter chooses runs or files only.
-    #[must_use]
     pub fn is_selection(&self, feature: &str) -> bool {
         self.selections.iter().any(|selection| selection.feature == feature)
     }
 
     /// Declaration of an option.
-    #[must_use]
     pub fn of(&self, option: &FeatureOption) -> Option<&DeclaredOption> {
         self.options.iter().find(|own| own.feature == option.feature && own.option == option.option)
     }
@@ -145,7 +141,6 @@ pub static DECLARATIONS: LazyLock<Declarations> =
     LazyLock::new(|| toml::from_str(include_str!("../coverage.toml")).expect("a test reads the file that is built in"));
 
 /// Coverage of every option that the parameters offer, by the cases of a report.
-#[must_use]
 pub fn coverage(features: &Features, cases: &[CaseReport]) -> Vec<OptionCoverage> {
     let chosen: Vec<Vec<BTreeSet<FeatureOption>>> =
         cases.iter().map(|case| case.run_parameters.iter().map(|run| features.chosen(run)).collect()).collect();

@@ -18,7 +18,6 @@ pub enum Exit {
 
 impl Exit {
     /// Exit code of runs whose gates do not count.
-    #[must_use]
     pub fn of_runs(results: &[CaseResult]) -> Self {
         let has_diverged = results.iter().any(|result| result.unexpected_divergences().next().is_some());
         if has_diverged { Self::Diverged } else { Self::Held }

@@ -48,7 +48,6 @@ pub enum FailureKind {
 
 impl FailureKind {
     /// It in words.
-    #[must_use]
     pub fn words(self) -> &'static str {
         match self {
             Self::Defect => "defect",
@@ -84,7 +83,6 @@ pub enum ListStatus {
 
 impl ListStatus {
     /// Whether the list and the result contradict each other.
-    #[must_use]
     pub fn is_error(&self) -> bool {
         matches!(self, Self::PassesAgain(_) | Self::Worse(_) | Self::WithoutGate(_))
     }
@@ -133,14 +131,12 @@ impl ExpectedFailures {
     }
 
     /// The entry for `metric` of `case`.
-    #[must_use]
     pub fn entry(&self, case: &str, metric: &Metric) -> Option<&ExpectedFailure> {
         let key = MetricKey::of(case, metric);
         self.failures.iter().find(|failure| failure.key() == key)
     }
 
     /// Status of `metric` of `case` in the list.
-    #[must_use]
     pub fn status(&self, case: &str, metric: &Metric) -> ListStatus {
         let Some(entry) = self.entry(case, metric).cloned() else { return ListStatus::Unlisted };
         match (metric.verdict(), &metric.gate) {
@@ -161,7 +157,6 @@ impl ExpectedFailures {
 
 impl ExpectedFailure {
     /// The gate that it names.
-    #[must_use]
     pub fn key(&self) -> MetricKey {
         MetricKey { case: self.case.clone(), metric: self.metric.clone(), variant: self.variant.clone() }
     }

@@ -30,7 +30,6 @@ pub struct GateList {
 
 impl GateList {
     /// The file of a tier in the folder of the baseline.
-    #[must_use]
     pub fn path(folder: &Path, tier: Tier) -> PathBuf {
         folder.join("gates").join(format!("{}.txt", tier.name()))
     }
@@ -57,7 +56,6 @@ impl GateList {
     }
 
     /// Limits of a case's gates that differ from the accepted ones, a line each.
-    #[must_use]
     pub fn moved_limits(&self, case: &str, metrics: &[Metric]) -> Vec<String> {
         let moved = limits(case, metrics).filter_map(|(key, limit)| {
             let accepted = self.gates.get(&key).filter(|own| **own != UNKNOWN && **own != limit)?;
@@ -80,7 +78,6 @@ impl GateList {
 
     /// Contradictions between the list, the gates among all baseline values of its tier and the gates that went, a line each:
     /// gates that went without a reason, and gates that are not in the list.
-    #[must_use]
     pub fn differences(&self, tier: Tier, baseline: &Baseline, removed: &RemovedGates) -> Vec<String> {
         let now: BTreeSet<&MetricKey> = baseline.gates().collect();
         let is_explained = |gate: &MetricKey| removed.removed.iter().any(|removed| removed.names(gate, tier));

@@ -32,7 +32,6 @@ impl Severity {
         [Self::NewFailure, Self::NotJudged, Self::ExpectedFailure, Self::Inconclusive, Self::Pass];
 
     /// Its word on pages, in files and on the terminal.
-    #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
             Self::NewFailure => "new failure",
@@ -44,7 +43,6 @@ impl Severity {
     }
 
     /// Whether it changes the exit code.
-    #[must_use]
     pub fn is_error(self) -> bool {
         self <= Self::NotJudged
     }
@@ -107,7 +105,6 @@ impl<'r> JudgedMetric<'r> {
     }
 
     /// Its rank on a page.
-    #[must_use]
     pub fn rank(&self) -> Rank {
         match self.severity {
             Some(severity) if severity <= Severity::ExpectedFailure => Rank::Failing(severity),
@@ -118,7 +115,6 @@ impl<'r> JudgedMetric<'r> {
     }
 
     /// Remark of the list of expected failures, in a sentence.
-    #[must_use]
     pub fn note(&self) -> String {
         let best = |value: f64| with_unit(value, &self.metric.unit);
         match &self.listed {
@@ -177,7 +173,6 @@ impl<'r> JudgedCase<'r> {
     }
 
     /// Its rank on a page; an empty case is observed.
-    #[must_use]
     pub fn rank(&self) -> Rank {
         let worst = self.metrics.iter().map(JudgedMetric::rank).min().unwrap_or(Rank::Observed);
         if !self.diverged.is_empty() || !self.case.not_judged.is_empty() {
@@ -190,7 +185,6 @@ impl<'r> JudgedCase<'r> {
     }
 
     /// Its gates, with those of the baseline that it does not judge.
-    #[must_use]
     pub fn tally(&self) -> Tally {
         let gone = self.case.not_judged.iter().map(|_| Severity::NotJudged);
         Tally(self.metrics.iter().filter_map(|judged| judged.severity).chain(gone).collect())
@@ -203,19 +197,16 @@ pub struct Tally(pub Vec<Severity>);
 
 impl Tally {
     /// Number of all.
-    #[must_use]
     pub fn all(&self) -> usize {
         self.0.len()
     }
 
     /// Number of those of a severity.
-    #[must_use]
     pub fn of(&self, severity: Severity) -> usize {
         self.0.iter().filter(|own| **own == severity).count()
     }
 
     /// The gates and their number in each severity, without those that have none; the new failures always.
-    #[must_use]
     pub fn in_words(&self) -> String {
         let counts = Severity::ALL.into_iter().rev().map(|severity| (severity, self.of(severity)));
         let shown = counts.filter(|(severity, number)| *number > 0 || *severity == Severity::NewFailure);
@@ -227,7 +218,6 @@ impl Tally {
     }
 
     /// Numbers by the words of their severities.
-    #[must_use]
     pub fn by_word(&self) -> BTreeMap<String, usize> {
         Severity::ALL.into_iter().map(|severity| (severity.word().to_owned(), self.of(severity))).collect()
     }
@@ -258,20 +248,17 @@ impl<'r> Judgement<'r> {
     }
 
     /// All gates.
-    #[must_use]
     pub fn tally(&self) -> Tally {
         Tally(self.cases.iter().flat_map(|case| case.tally().0).collect())
     }
 
     /// Gates of one kind.
-    #[must_use]
     pub fn tally_of(&self, kind: MetricKind) -> Tally {
         let own = self.metrics().filter(|(_, judged)| kind == judged.metric.kind);
         Tally(own.filter_map(|(_, judged)| judged.severity).collect())
     }
 
     /// The verdict in a line: all gates, and how many values have moved from the baseline.
-    #[must_use]
     pub fn in_words(&self) -> String {
         let (moved, diverged) = (self.moved(), self.diverged());
         let mut text = self.tally().in_words();
@@ -285,28 +272,24 @@ impl<'r> Judgement<'r> {
     }
 
     /// Runs that diverged without having declared it.
-    #[must_use]
     pub fn diverged(&self) -> usize {
         self.cases.iter().map(|case| case.diverged.len()).sum()
     }
 
     /// Values that have left their tolerance, their unit or their side of a gate, or are no longer measured. New values have
     /// nothing to have moved from.
-    #[must_use]
     pub fn moved(&self) -> usize {
         let vanished: usize = self.cases.iter().map(|case| case.vanished.len()).sum();
         vanished + self.metrics().filter(|(_, judged)| judged.change.has_moved()).count()
     }
 
     /// Values that are as in the baseline.
-    #[must_use]
     pub fn unchanged(&self) -> usize {
         self.metrics().filter(|(_, judged)| matches!(judged.change, Change::Unchanged { .. })).count()
     }
 
     /// The exit code. A divergence weighs more than a gate, since its metrics mean nothing. Moved values do not count: they are
     /// the baseline's verdict, not the gate's.
-    #[must_use]
     pub fn exit(&self) -> Exit {
         let is_error = |case: &JudgedCase<'_>| matches!(case.rank(), Rank::Failing(severity) if severity.is_error());
         if self.diverged() > 0 {
@@ -320,7 +303,6 @@ impl<'r> Judgement<'r> {
 }
 
 /// Judges every case of `report`.
-#[must_use]
 pub fn judge(report: &Report) -> Judgement<'_> {
     let mut cases: Vec<JudgedCase<'_>> = report.cases.iter().map(|case| JudgedCase::of(report, case)).collect();
     // Stable: cases of one rank keep the registry's order.

@@ -109,7 +109,6 @@ pub struct Report {
 
 impl Report {
     /// A report of some cases without anything to compare with.
-    #[must_use]
     pub fn of(title: String, tier: Tier, cases: Vec<CaseReport>) -> Self {
         Self {
             title,
@@ -143,7 +142,6 @@ pub struct ReportProvenance {
 
 impl ReportProvenance {
     /// Provenance of a report that this program made in `wall` time, by `command` if it is to be shown.
-    #[must_use]
     pub fn of_this_program(wall: Duration, command: String) -> Self {
         Self {
             version: provenance::version().to_owned(),
@@ -172,7 +170,6 @@ pub struct CaseReport {
 
 impl CaseReport {
     /// A finished case of a registry.
-    #[must_use]
     pub fn of(result: CaseResult, registry: Registry) -> Self {
         let quantities = registry.find(&result.name).map_or(&[][..], |case| case.quantities());
         Self { result, quantities, not_judged: Vec::new(), controls: Vec::new(), measured: Vec::new() }

@@ -48,7 +48,6 @@ impl fmt::Display for MovedValue {
 
 /// Every change, the farthest first, then in the order of the cases. What has moved beyond its tolerance comes before what has
 /// not.
-#[must_use]
 pub(super) fn moved(judgement: &Judgement<'_>) -> Vec<MovedValue> {
     let baseline = &judgement.report.baseline;
     let mut all = Vec::new();

@@ -29,7 +29,6 @@ impl Status {
         [Self::Reproduced, Self::NotShown, Self::NotReproduced, Self::Contradicted, Self::NotCovered];
 
     /// Its name.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Self::Contradicted => "contradicted",
@@ -42,7 +41,6 @@ impl Status {
 
     /// Status that a metric gives to an element that names it: the paper's number decides if there is one, else the
     /// gate; none for an observed metric.
-    #[must_use]
     pub fn of(name: &MetricName, metric: &Metric) -> Option<Self> {
         let is_uncertain = match name.printed {
             Some(printed) => {
@@ -199,7 +197,6 @@ impl<'r> ElementOutcome<'r> {
     }
 
     /// Whether tests alone hold it: nothing of it is computed in a report.
-    #[must_use]
     pub fn rests_on_tests(&self) -> bool {
         self.status == Status::Reproduced && self.shown.is_empty() && self.ended.is_empty()
     }
@@ -216,20 +213,17 @@ pub struct PaperSummary<'r> {
 
 impl<'r> PaperSummary<'r> {
     /// The account of a paper by the metrics of these cases.
-    #[must_use]
     pub fn of(paper: &'r Paper, cases: &'r [CaseReport]) -> Self {
         Self { paper, elements: paper.elements.iter().map(|element| ElementOutcome::of(element, cases)).collect() }
     }
 
     /// Number of elements with this status.
-    #[must_use]
     pub fn count(&self, status: Status) -> usize {
         self.elements.iter().filter(|fate| fate.status == status).count()
     }
 }
 
 /// The papers that a report of these cases accounts for: none where no element names any of the cases.
-#[must_use]
 pub fn accounted(cases: &[CaseReport]) -> &'static [Paper] {
     let is_named = |case: &CaseReport| {
         let elements = PAPERS.iter().flat_map(|paper| &paper.elements);

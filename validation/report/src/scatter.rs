@@ -34,13 +34,11 @@ pub struct QuantityBias {
 
 /// The quantities of a report with at least three comparisons, by name. Metrics of one name and unit are one quantity,
 /// whatever their case; a reference that is unverified, or exact for the model, is no measurement.
-#[must_use]
 pub fn quantities(report: &Report) -> Vec<QuantityBias> {
     quantities_of(report.cases.iter().map(|case| (case.name.as_str(), case.metrics.iter().collect())))
 }
 
 /// The same of the metrics of some cases.
-#[must_use]
 pub fn quantities_of<'a>(cases: impl IntoIterator<Item = (&'a str, Vec<&'a Metric>)>) -> Vec<QuantityBias> {
     type Group = (Vec<(String, Vec<Comparison>)>, usize);
     let mut groups: BTreeMap<(String, String), Group> = BTreeMap::new();

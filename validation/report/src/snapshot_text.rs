@@ -22,7 +22,6 @@ pub struct MetricKey {
 
 impl MetricKey {
     /// The key of `metric` in `case`.
-    #[must_use]
     pub fn of(case: &str, metric: &Metric) -> Self {
         Self { case: case.to_owned(), metric: metric.name.clone(), variant: metric.variant.clone() }
     }
@@ -45,7 +44,6 @@ const SOURCE: &str = "source: tests/snapshots/main.rs";
 const COMMIT: &str = "commit: ";
 
 /// Whose values a snapshot holds.
-#[must_use]
 pub fn description(case: &str, tier: &str) -> String {
     format!("{case} at the {tier} tier")
 }

@@ -25,7 +25,6 @@ impl Terminal {
 }
 
 /// A case's metrics, one per line, what went wrong in its runs, and what is predicted.
-#[must_use]
 pub fn of_case(judged: &JudgedCase<'_>, terminal: Terminal) -> String {
     let case = judged.case;
     let is_sound = case.runs.iter().all(|run| !matches!(run.outcome, Outcome::Diverged { .. }));

@@ -47,7 +47,6 @@ impl Counted {
 
 impl CountBar {
     /// A bar for so many things, of which some are done.
-    #[must_use]
     pub fn new(what: &str, all: usize, done: usize, quiet: bool) -> Self {
         let (what, all, done, begin) = (what.to_owned(), all as u64, done as u64, Instant::now());
         Self(Display::new(Counted { what, doing: String::new(), all, done, usual: 0, before: done, begin }, quiet))

@@ -57,13 +57,11 @@ use std::process::ExitCode;
 use terminal::{StandardOutput, print, say};
 
 /// The program: reads its arguments, prints on standard output and error.
-#[must_use]
 pub fn main() -> ExitCode {
     program(*REGISTRY, std::env::args_os())
 }
 
 /// The program with the cases of a registry, for crates with cases of their own. The first argument is the program's name.
-#[must_use]
 pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitCode {
     declare_build();
     let words: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
@@ -114,7 +112,6 @@ impl Session<'_> {
 }
 
 /// Acts with logging, signals and standard output as every command has them, and says why it ends where it fails.
-#[must_use]
 pub fn conduct<E: Display>(
     verbosity: Verbosity,
     registry: Registry,
@@ -147,7 +144,6 @@ pub fn conduct<E: Display>(
 }
 
 /// Prints what the arguments ask for by themselves, such as `--help`, or why they are refused.
-#[must_use]
 pub fn answered(answer: &clap::Error) -> ExitCode {
     if answer.get(ContextKind::InvalidSubcommand) == Some(&ContextValue::String("dev".to_owned())) {
         tell(
@@ -285,7 +281,6 @@ pub fn in_pool<T: Send, E: From<ParameterError> + Send>(
 
 impl ResourceLimits {
     /// The limits that the options give.
-    #[must_use]
     pub fn limits(&self) -> Limits {
         Limits::of(self.most_memory, self.most_hours)
     }
@@ -293,7 +288,6 @@ impl ResourceLimits {
 
 impl ExecutionOptions {
     /// The folder of stored results that the options name.
-    #[must_use]
     pub fn open_store(&self) -> Store {
         self.store_for(if self.fresh { StorePolicy::Refresh } else { StorePolicy::Use })
     }

@@ -87,15 +87,17 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
     let within = |(low, high): (f64, f64), unit: f64| format!("{} … {}", of(low * unit), of(high * unit));
     let both = |unit: f64| (of(own.transport * unit), within(own.interval, unit));
     let ((rate, interval), (dimensionless, own_interval)) = (both(unit), both(1.0));
-    let mut text =
-        format!("bed load      {rate} kg/(m s); 95 % interval from closures and the scatter of measurements: {interval}\n");
+    let mut text = format!(
+        "bed load      {rate} kg/(m s); 95 % interval from closures and the scatter of measurements: {interval}\n"
+    );
     text += &format!("              q* = {dimensionless} ({own_interval})\n");
     if let Some(width) = flume.width {
         let (rate, interval) = both(unit * width);
         text += &format!("in the flume  {rate} kg/s ({interval}) over {} m\n", of(width));
     }
     let ((steady, all), by_closures) = (own.draws, within(own.by_closures, unit));
-    text += &format!("closures      95 % interval of {steady} steady layers from {all} draws: {by_closures} kg/(m s)\n");
+    text +=
+        &format!("closures      95 % interval of {steady} steady layers from {all} draws: {by_closures} kg/(m s)\n");
     let measured = own.rates.as_ref().map_or_else(
         || "fewer than ten runs near this Shields number; scatter of all runs above 0.1 is used".to_owned(),
         |rates| {

@@ -14,7 +14,7 @@ use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
-use crate::weakly_compressible::passes::records::{self, Records};
+use crate::weakly_compressible::passes::records;
 use crate::weakly_compressible::passes::shell_impulse::{Booking, NO_OWNER, WallImpulse};
 use crate::weakly_compressible::terms::{no_slip, wall_slip};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;

@@ -226,7 +226,6 @@ impl GrainUnits {
 
 impl BedLoad1dFlow {
     /// The stream; at the onset of motion, that of Shields' curve.
-    #[must_use]
     pub fn stream(&self) -> Stream {
         match self.stream {
             LayerStream::Slope(own) => Stream {
@@ -263,7 +262,6 @@ impl BedLoad1dFlow {
     }
 
     /// Height of a cell `[m]`.
-    #[must_use]
     pub fn cell_height(&self) -> f64 {
         match self.stream {
             LayerStream::Slope(own) => own.cell_height,

@@ -20,7 +20,6 @@ pub enum TurbulenceClosure {
 
 impl TurbulenceClosure {
     /// The closure in a flow of a depth `[m]` above the level 0, whose origin lies `origin_offset` `[m]` below it.
-    #[must_use]
     pub fn over(self, depth: f64, origin_offset: f64) -> Turbulence {
         match self {
             Self::MixingLength { shape } => {

@@ -30,14 +30,12 @@ const ITERATIONS_REASON: &str = "10 % above the known iterations; velocity solve
 
 impl ChannelObservation {
     /// Mean of a series over the window, with its statistical error; not a number where the run did not get there.
-    #[must_use]
     pub fn average(&self, array: &[f64]) -> FittedValue {
         block_average(&self.series.within(array, self.window))
             .map_or(FittedValue { value: f64::NAN, standard_error: 0.0 }, Average::estimate)
     }
 
     /// Slope of a line through a series over the window, in its unit per second.
-    #[must_use]
     pub fn trend(&self, array: &[f64]) -> f64 {
         let time = self.series.within(&self.series.time, self.window);
         let points: Vec<(f64, f64)> = time.into_iter().zip(self.series.within(array, self.window)).collect();
@@ -77,7 +75,6 @@ pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation
 }
 
 /// Iterations of the velocities and of the pressure a step `[-]`, gated where it is known how many they take.
-#[must_use]
 pub fn iterations(variant: &Variant, data: &ChannelObservation, known: [Option<f64>; 2]) -> Vec<Metric> {
     let solves = [VELOCITY_ITERATIONS, PRESSURE_ITERATIONS].into_iter().zip(data.iterations).zip(known);
     let metric = |((quantity, found), known): ((Quantity, Option<f64>), Option<f64>)| {

@@ -115,7 +115,6 @@ pub struct Channel<'a> {
 
 impl<'a> Channel<'a> {
     /// A fluid without viscosity that slips along a level floor, and runs for no time: a case changes what it needs.
-    #[must_use]
     pub fn of(fluid: Lattice, density: f64, gravity: f64, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Self {
         Self {
             fluid,
@@ -141,7 +140,6 @@ impl<'a> Channel<'a> {
     }
 
     /// Longest time that the run may take `[s]`.
-    #[must_use]
     pub fn longest(&self) -> f64 {
         match self.until {
             AveragingWindowEnd::Time(time) => time,
@@ -150,7 +148,6 @@ impl<'a> Channel<'a> {
     }
 
     /// Expected number of steps of the whole run.
-    #[must_use]
     pub fn expected_steps(&self) -> f64 {
         self.longest() / self.numerics.time_step
     }

@@ -31,13 +31,11 @@ pub struct ChannelSeries {
 
 impl ChannelSeries {
     /// Points of a curve over time: (t `[s]`, value over `scale`).
-    #[must_use]
     pub fn curve(&self, array: &[f64], scale: f64) -> Vec<(f64, f64)> {
         self.time.iter().copied().zip(array.iter().map(|value| value / scale)).collect()
     }
 
     /// The samples of an array at times in a window `[s]`.
-    #[must_use]
     pub fn within(&self, array: &[f64], window: (f64, f64)) -> Vec<f64> {
         let samples = self.time.iter().zip(array);
         samples.filter(|(time, _)| **time >= window.0 && **time <= window.1).map(|(_, value)| *value).collect()
@@ -59,7 +57,6 @@ pub struct MomentumBalance {
 
 impl MomentumBalance {
     /// What is not accounted for, over the impulse of the body force `[-]`.
-    #[must_use]
     pub fn residual(&self) -> f64 {
         (self.after - self.before - self.driven - self.held) / self.driven
     }

@@ -8,7 +8,6 @@ use bagnold_solver::vector::Vector;
 
 impl Channel<'_> {
     /// The scene as the run starts from it.
-    #[must_use]
     pub fn scene(&self) -> IncompressibleScene<2> {
         let lattice = &self.fluid;
         let displaced = || {

@@ -7,13 +7,11 @@ use crate::observation::Recorded;
 use crate::output::Table;
 
 /// Tables of all runs of a case of water alone.
-#[must_use]
 pub fn tables_of_runs<R: Flow>(records: &[(R, Recorded<ChannelObservation>)]) -> Vec<Table> {
     records.iter().flat_map(|(run, record)| tables(&run.variant(), &record.data)).collect()
 }
 
 /// Tables of one run.
-#[must_use]
 pub fn tables(variant: &Variant, data: &ChannelObservation) -> Vec<Table> {
     let stem = variant.file_name();
     let (series, profile) = (&data.series, data.profile.points().into_iter().zip(data.profile.velocities()));

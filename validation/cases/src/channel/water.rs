@@ -53,13 +53,11 @@ impl Water {
     }
 
     /// Particle spacing `[m]`.
-    #[must_use]
     pub fn spacing(&self) -> f64 {
         self.depth / self.resolution as f64
     }
 
     /// Particles.
-    #[must_use]
     pub fn particles(&self) -> f64 {
         (self.resolution * self.columns) as f64
     }

@@ -91,27 +91,23 @@ pub const BINS: usize = 20;
 ///
 /// A fast layer is to be six times slower than sound. With a ratio of three the unevenness of the flow between particles
 /// compresses it: fine grains at 34° sank by 5 % and were 3 % too fast, with six by 1 % and 1.2 %.
-#[must_use]
 pub fn bulk_modulus(reference_density: f64, gravity: f64, height: f64, expected_mean: f64) -> f64 {
     reference_density * (50.0 * gravity * height).max((6.0 * expected_mean).powi(2))
 }
 
 impl Layer<'_> {
     /// Particle spacing Δ `[m]`.
-    #[must_use]
     pub fn spacing(&self) -> f64 {
         self.layer.layer_height / self.layer.resolution as f64
     }
 
     /// Exact pressure `[Pa]` of the compressible layer at rest, K (exp(ρ0 g cosθ (H − y)/K) − 1).
-    #[must_use]
     pub fn hydrostatic_pressure(&self, y: f64) -> f64 {
         let across = self.layer.gravity * libm::cos(self.inclination);
         hydrostatic_pressure(self.bulk_modulus, self.reference_density, across, self.layer.layer_height - y)
     }
 
     /// Expected number of steps for the whole run, from the acoustic bound.
-    #[must_use]
     pub fn expected_steps(&self) -> f64 {
         let sound_speed = (self.bulk_modulus / self.reference_density).sqrt();
         let smoothing_length = self.layer.numerics.smoothing_ratio * self.spacing();
@@ -168,7 +164,6 @@ impl Layer<'_> {
     }
 
     /// The scene at rest, without shear stress.
-    #[must_use]
     pub fn scene(&self) -> Scene<2> {
         let spacing = self.spacing();
         let PeriodicLayer { columns, resolution: rows, jitter, seed, numerics, .. } = self.layer;

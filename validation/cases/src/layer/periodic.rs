@@ -56,13 +56,11 @@ impl PeriodicLayer {
     }
 
     /// Number of particles.
-    #[must_use]
     pub fn particles(&self) -> f64 {
         (self.resolution * self.columns) as f64
     }
 
     /// The layer of a law and a bulk density `[kg/m³]` on a slope `[°]`, at rest; how it is run is left to the case.
-    #[must_use]
     pub fn of(&self, rheology: Rheology, reference_density: f64, slope_angle: f64) -> Layer<'static> {
         Layer {
             layer: *self,

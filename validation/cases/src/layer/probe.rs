@@ -87,7 +87,6 @@ pub struct LayerObservation {
 
 impl LayerObservation {
     /// Why the profile over the last `window` `[s]` is not that of a steady flow; none where it is.
-    #[must_use]
     pub fn unsteadiness(&self, window: f64) -> Option<String> {
         let mean = self.series.curve(&self.series.mean_velocity);
         unsteadiness("the depth mean of the velocity", mean, window)

@@ -7,7 +7,6 @@ use crate::observation::Recorded;
 use crate::output::Table;
 
 /// Tables of all runs of a case.
-#[must_use]
 pub fn tables_of_runs<R: Flow>(records: &[(R, Recorded<LayerObservation>)]) -> Vec<Table> {
     records.iter().flat_map(|(run, record)| tables(&run.variant(), &record.data)).collect()
 }

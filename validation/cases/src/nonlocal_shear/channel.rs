@@ -73,19 +73,16 @@ pub struct Channel<'a> {
 
 impl Channel<'_> {
     /// Particle spacing Δ `[m]`.
-    #[must_use]
     pub fn spacing(&self) -> f64 {
         self.width / self.grains.rows as f64
     }
 
     /// Length of the period `[m]`.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.grains.columns as f64 * self.spacing()
     }
 
     /// Its grains between pressure and density.
-    #[must_use]
     pub fn equation_of_state(&self) -> EquationOfState {
         let most = (self.pressure)(0.0).max((self.pressure)(self.width));
         EquationOfState {

@@ -29,19 +29,16 @@ impl ExactShear {
     }
 
     /// Velocity `[m/s]` at a height above the lower wall `[m]`.
-    #[must_use]
     pub fn velocity(&self, height: f64) -> f64 {
         self.profile.velocity(self.distance(height))
     }
 
     /// Shear rate `[1/s]` at such a height.
-    #[must_use]
     pub fn shear_rate(&self, height: f64) -> f64 {
         self.profile.shear_rate(self.distance(height))
     }
 
     /// Shear stress s_xy `[Pa]` at such a height.
-    #[must_use]
     pub fn shear_stress(&self, height: f64) -> f64 {
         let (pressure, friction) = self.shear.stress.at(self.distance(height), self.shear.thickness);
         // the velocity of a chute falls from its middle to either wall
@@ -50,7 +47,6 @@ impl ExactShear {
     }
 
     /// Distance from where it flows fastest at which the local law changes from flow to rest, or in a chute from rest to flow `[m]`.
-    #[must_use]
     pub fn yield_distance(&self) -> f64 {
         let yielding = self.shear.grains.static_friction;
         match self.shear.stress {
@@ -61,7 +57,6 @@ impl ExactShear {
     }
 
     /// (distance from where it flows fastest `[m]`, velocity `[m/s]`) of the local law under the same stresses.
-    #[must_use]
     pub fn local(&self) -> Vec<(f64, f64)> {
         let local = local_profile(&self.shear);
         local.distances.into_iter().zip(local.velocities).collect()

@@ -207,19 +207,16 @@ pub struct ShearedGrains {
 
 impl NonlocalShearFlow {
     /// Length of the window before the end that is averaged over `[s]`.
-    #[must_use]
     pub fn window(&self) -> f64 {
         WINDOW * self.duration
     }
 
     /// Whether its grains have the local law.
-    #[must_use]
     pub fn is_local(&self) -> bool {
         matches!(self.material, Rheology::MuI(_))
     }
 
     /// The law, without cooperation where it is local; without a friction for one that is refused.
-    #[must_use]
     pub fn law(&self) -> NonlocalMuI {
         match self.material {
             Rheology::NonlocalMuI(law) => law,
@@ -244,7 +241,6 @@ impl NonlocalShearFlow {
     }
 
     /// The grains as the run is made for.
-    #[must_use]
     pub fn nominal(&self) -> ShearedGrains {
         let NonlocalMuI { grain_density, grain_diameter, .. } = self.law();
         ShearedGrains {
@@ -254,7 +250,6 @@ impl NonlocalShearFlow {
     }
 
     /// The grains and the flow as they were found: at the pressure and the density of the run.
-    #[must_use]
     pub fn found(&self, seen: &ShearObservation) -> (ShearedGrains, Self) {
         let (density, pressure) = (seen.density, seen.mean_pressure());
         let half_width = self.thickness * self.diameter();
@@ -272,14 +267,12 @@ impl NonlocalShearFlow {
     }
 
     /// The steady flow without particles at the pressure that was found; none where nothing flows.
-    #[must_use]
     pub fn exact(&self, seen: &ShearObservation) -> Option<ExactShear> {
         let (grains, flow) = self.found(seen);
         flow.steady(&grains)
     }
 
     /// Its particles.
-    #[must_use]
     pub fn particles(&self) -> ChannelGrains {
         let Self { columns, jitter, seed, numerics, .. } = *self;
         let rows = (self.width() / self.diameter() * self.particles_per_diameter as f64).round() as usize;

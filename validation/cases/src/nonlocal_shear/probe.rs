@@ -32,19 +32,16 @@ pub struct ShearObservation {
 
 impl ShearObservation {
     /// Mean pressure of all rows `[Pa]`.
-    #[must_use]
     pub fn mean_pressure(&self) -> f64 {
         mean(&self.pressure)
     }
 
     /// (height `[m]`, velocity `[m/s]`) of the rows from below.
-    #[must_use]
     pub fn velocities(&self) -> Vec<(f64, f64)> {
         self.height.iter().copied().zip(self.velocity.iter().copied()).collect()
     }
 
     /// Why the rows over the last `window` `[s]` are not those of a steady flow; none where they are.
-    #[must_use]
     pub fn unsteadiness(&self, window: f64) -> Option<String> {
         let series = self.time.iter().copied().zip(self.mean_velocity.iter().copied());
         unsteadiness("the mean velocity", series, window)

@@ -11,20 +11,17 @@ const HALVINGS: usize = 40;
 
 impl NonlocalShearFlow {
     /// Distance of its walls, or of its surface from the bed `[m]`.
-    #[must_use]
     pub fn width(&self) -> f64 {
         let thickness = self.thickness * self.diameter();
         if self.drive == Drive::Chute { 2.0 * thickness } else { thickness }
     }
 
     /// Distance `[m]` from where it flows fastest, the middle of a chute, the plate or the surface, of a height above the lower wall `[m]`.
-    #[must_use]
     pub fn distance(&self, height: f64) -> f64 {
         distance(self.drive == Drive::Chute, self.thickness * self.diameter(), height)
     }
 
     /// Gravity along the walls and across them `[m/s²]`.
-    #[must_use]
     pub fn driving(&self, grains: &ShearedGrains) -> [f64; 2] {
         match self.drive {
             Drive::Chute => {
@@ -41,7 +38,6 @@ impl NonlocalShearFlow {
     }
 
     /// Pressure at a height `[Pa]`.
-    #[must_use]
     pub fn pressure(&self, grains: &ShearedGrains, height: f64) -> f64 {
         match self.drive {
             Drive::Chute => grains.load,
@@ -52,7 +48,6 @@ impl NonlocalShearFlow {
 
     /// The steady flow: of a chute at its friction, below a plate with the traction at which the plate moves as it does; none
     /// where there is no such flow.
-    #[must_use]
     pub fn steady(&self, grains: &ShearedGrains) -> Option<ExactShear> {
         let friction = match self.drive {
             Drive::Chute => self.wall_friction,

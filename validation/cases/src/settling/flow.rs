@@ -134,7 +134,6 @@ impl Flow for SettlingFlow {
 
 impl SettlingFlow {
     /// Whether it is a suspension; else it is a grain alone.
-    #[must_use]
     pub fn is_suspension(&self) -> bool {
         self.numerics.continuity == Continuity::Mixture
     }
@@ -155,7 +154,6 @@ impl SettlingFlow {
     }
 
     /// Slip at which weight and drag are in balance `[m/s]`; not a number beyond what the law covers.
-    #[must_use]
     pub fn root(&self) -> f64 {
         self.slip().unwrap_or(f64::NAN)
     }
@@ -169,7 +167,6 @@ impl SettlingFlow {
     }
 
     /// Velocity of a grain alone as a sphere, c = ¾ `[m/s]`; that of Wen and Yu for Ergun's law.
-    #[must_use]
     pub fn sphere_velocity(&self) -> f64 {
         let alone = |law| self.grains.terminal_velocity(law, GrainForm::Sphere);
         alone(self.law).or(alone(DragLaw::WenYu)).unwrap_or(f64::NAN)

@@ -47,7 +47,6 @@ impl SettlingSeries {
     }
 
     /// Mean of an array over the window at the run's end, and its standard error.
-    #[must_use]
     pub fn mean(&self, array: &[f64]) -> (f64, f64) {
         let end = self.time.last().copied().unwrap_or_default();
         let samples = self.time.iter().zip(array).filter(|(time, _)| **time >= (1.0 - WINDOW) * end);

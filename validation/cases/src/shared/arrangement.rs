@@ -15,7 +15,6 @@ pub enum Arrangement {
 
 impl Arrangement {
     /// Name in files and variants.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Lattice => "lattice",

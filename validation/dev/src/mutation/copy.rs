@@ -116,13 +116,11 @@ pub struct TestTarget {
 
 impl TestTarget {
     /// The targets that ask for physics: the solver's tests, and those of balances, orders and bits.
-    #[must_use]
     pub fn of_physics() -> Vec<Self> {
         ["solver/src", "solver/tests", "tests/"].iter().filter_map(|source| Self::of(source)).collect()
     }
 
     /// The target of a source, by its path in the checkout.
-    #[must_use]
     pub fn of(source: &str) -> Option<Self> {
         let mut folders = source.split('/');
         let (package, name, is_library) = match (folders.next()?, folders.next()?) {
@@ -137,7 +135,6 @@ impl TestTarget {
     }
 
     /// Filters of its tests that ask for physics; none where all of them do.
-    #[must_use]
     pub fn physics(&self) -> &'static [&'static str] {
         if self.name == SUITE { &["invariants::", "convergence::", "determinism::"] } else { &[] }
     }

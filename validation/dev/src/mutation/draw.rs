@@ -43,13 +43,11 @@ impl Draw {
     }
 
     /// Number of candidates.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.order.len()
     }
 
     /// The candidate of a place in the order, as a record.
-    #[must_use]
     pub fn mutation(&self, place: usize) -> Mutation {
         let candidate = &self.order[place];
         candidate.mutation(format!("drawn-{place}"), &self.sources[&candidate.file])
@@ -179,7 +177,6 @@ pub struct DrawProgress {
 
 impl DrawProgress {
     /// Findings of a draw with this program, and the file that keeps them.
-    #[must_use]
     pub fn open(workspace: &Path, draw: &Draw) -> (Self, PathBuf) {
         let sources: String = draw.sources.iter().map(|(file, text)| format!("{file}\n{text}")).collect();
         let digest = state_hash(format!("{}{sources}", source_hash()).as_bytes());
@@ -199,7 +196,6 @@ impl DrawProgress {
     }
 
     /// The cases that reach a mutation, the cheapest first.
-    #[must_use]
     pub fn cases_of(&self, place: usize) -> Vec<(&String, &TracedCase)> {
         let mut cases: Vec<_> = self.cases.iter().filter(|(_, case)| case.reached.contains(&place)).collect();
         cases.sort_by(|(_, a), (_, b)| a.right.wall_seconds.total_cmp(&b.right.wall_seconds));

@@ -44,7 +44,6 @@ pub enum Detection {
 
 impl Detection {
     /// Whether `bagnold report` fails by it on its own.
-    #[must_use]
     pub fn is_certain(&self) -> bool {
         matches!(self, Self::Gate(_) | Self::Stop(_))
     }
@@ -71,7 +70,6 @@ pub struct MutationOutcome {
 pub type MutationComparison<'a> = (&'a Scope, &'a MutantRun, Result<MutantRun, String>);
 
 /// Judges what the cases of an error said, each with what it says without.
-#[must_use]
 pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> MutationOutcome {
     let (mut broken, mut stops, mut drifts, mut wall_seconds) = (Vec::new(), Vec::new(), Vec::new(), 0.0);
     for (scope, right, wrong) in comparisons {
@@ -123,7 +121,6 @@ fn broken_gates<'a>(case: &'a str, right: &'a MutantRun, wrong: &'a MutantRun) -
 
 /// Numbers of errors by their strongest witness: a gate, a run that diverged or a program that stopped, a test alone, the snapshot
 /// alone, nothing.
-#[must_use]
 pub fn tally(findings: &[MutationOutcome]) -> [usize; 5] {
     let mut tally = [0; 5];
     for finding in findings {
@@ -140,7 +137,6 @@ pub fn tally(findings: &[MutationOutcome]) -> [usize; 5] {
 }
 
 /// Shares of the errors that were noticed, and that make `bagnold report` fail on its own, by a gate or a divergence `[-]`.
-#[must_use]
 pub fn shares_caught(tally: [usize; 5]) -> (f64, f64) {
     let all: usize = tally.iter().sum();
     let [gate, stop, .., nothing] = tally;
@@ -149,7 +145,6 @@ pub fn shares_caught(tally: [usize; 5]) -> (f64, f64) {
 }
 
 /// Whether both shares are as large as they must be.
-#[must_use]
 pub fn holds(tally: [usize; 5]) -> bool {
     let (caught, gated) = shares_caught(tally);
     caught >= super::LEAST_CAUGHT && gated >= super::LEAST_GATED

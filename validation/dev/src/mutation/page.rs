@@ -53,7 +53,6 @@ fn shares(findings: &[MutationOutcome]) -> String {
 }
 
 /// A line per error, those that no gate noticed last, then the shares.
-#[must_use]
 pub fn table(findings: &[MutationOutcome]) -> String {
     let mut text = String::new();
     let width = findings.iter().map(|finding| finding.error.name.len()).max().unwrap_or(0);
@@ -82,7 +81,6 @@ fn rows(findings: &[MutationOutcome], last: (&str, impl Fn(&MutationOutcome) -> 
 }
 
 /// A drawn mutation in a line: place, rule, right → wrong, who noticed, seconds.
-#[must_use]
 pub fn drawn_line(finding: &MutationOutcome) -> String {
     let (word, witness) = (word(&finding.catch), witness(finding));
     format!("{}; {word}: {witness} ({:.1} s)", finding.error.description, finding.wall_seconds)
@@ -99,7 +97,6 @@ fn share_interval(part: usize, all: usize) -> (f64, f64) {
 }
 
 /// The findings of a draw as Markdown: its title and a sentence on how it was drawn, shares with their intervals, a row per mutation.
-#[must_use]
 pub fn drawn_page(sentence: &str, findings: &[MutationOutcome]) -> String {
     let all = findings.len().max(1);
     let [gate, stop, test, snapshot, nothing] = tally(findings);
@@ -122,7 +119,6 @@ pub fn drawn_page(sentence: &str, findings: &[MutationOutcome]) -> String {
 }
 
 /// The findings as Markdown, with the shares.
-#[must_use]
 pub fn page(findings: &[MutationOutcome]) -> String {
     let rows = rows(findings, ("values moved", |finding| finding.drifted.to_string()));
     format!("# Mutations\n\n{}\n{rows}", shares(findings))

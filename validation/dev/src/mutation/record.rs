@@ -59,14 +59,12 @@ pub struct Mutations {
 
 impl SourceReplacement {
     /// The file from the root of the checkout.
-    #[must_use]
     pub fn path(&self) -> PathBuf {
         let root = if self.file.starts_with("validation/") { "" } else { "solver/src" };
         Path::new(root).join(&self.file)
     }
 
     /// Text to search for in the file.
-    #[must_use]
     pub fn needle(&self) -> String {
         format!("{}{}", self.after, self.text)
     }
@@ -89,7 +87,6 @@ impl Mutations {
     }
 
     /// Mutations that stand in no file.
-    #[must_use]
     pub fn of(list: Vec<Mutation>) -> Self {
         Self { settings: BTreeMap::new(), list }
     }
@@ -100,25 +97,21 @@ impl Mutations {
     }
 
     /// The one of that name.
-    #[must_use]
     pub fn find(&self, name: &str) -> Option<&Mutation> {
         self.iter().find(|mutation| mutation.name == name)
     }
 
     /// The number by which a copy of the program chooses it, from 1.
-    #[must_use]
     pub fn number(&self, mutation: &Mutation) -> usize {
         self.list.iter().position(|other| other == mutation).map_or(0, |place| place + 1)
     }
 
     /// The cases that ought to notice it, cut to what matters.
-    #[must_use]
     pub fn scopes(&self, mutation: &Mutation) -> Vec<Scope> {
         mutation.cases.iter().map(|case| self.scope(case)).collect()
     }
 
     /// A case, cut to what matters.
-    #[must_use]
     pub fn scope(&self, case: &str) -> Scope {
         Scope { case: case.to_owned(), settings: self.settings.get(case).cloned().unwrap_or_default() }
     }

@@ -41,7 +41,6 @@ impl MutantRun {
     }
 
     /// Reads what [`MutantRun::write`] wrote; none if there is nothing to be understood.
-    #[must_use]
     pub fn read(file: &Path) -> Option<Self> {
         std::fs::read(file).ok().and_then(|bytes| postcard::from_bytes(&bytes).ok())
     }

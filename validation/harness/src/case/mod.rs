@@ -61,7 +61,6 @@ pub enum Tier {
 
 impl Tier {
     /// Name on the command line and in files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Quick => "quick",

@@ -57,7 +57,6 @@ struct CheckpointFile {
 
 impl Checkpoints {
     /// The checkpoints of the run with a key, in a folder that is its own; `interval` is that which the user asks for.
-    #[must_use]
     pub fn at(folder: &Path, key: &str, interval: Option<Duration>) -> Self {
         let due = Instant::now() + interval.unwrap_or(USUAL_INTERVAL);
         let state = Mutex::new(CheckpointState { left: None, due });
@@ -112,7 +111,6 @@ impl Checkpoints {
     }
 
     /// Whether it is time for a checkpoint.
-    #[must_use]
     pub fn is_due(&self) -> bool {
         Instant::now() >= self.lock().due
     }
@@ -195,13 +193,11 @@ pub fn count_stopped(is_kept: bool) {
 }
 
 /// Numbers of runs that an interruption has stopped so far: without a checkpoint of that moment, and with one.
-#[must_use]
 pub fn stopped_runs() -> [usize; 2] {
     STOPPED.each_ref().map(|count| count.load(Ordering::Relaxed))
 }
 
 /// Whether the program has been asked to end.
-#[must_use]
 pub fn is_interrupted() -> bool {
     interruption::asked().is_some()
 }

@@ -31,7 +31,6 @@ impl StoredState {
     }
 
     /// A property of the scene that has left it, by its name; none where the state has no such property.
-    #[must_use]
     pub fn property(&self, name: &str) -> Option<String> {
         let (likeness, _): (Likeness, _) = postcard::take_from_bytes(&self.contents).ok()?;
         likeness.into_iter().find_map(|(own, value)| (own == name).then_some(value))

@@ -58,20 +58,17 @@ pub struct AcceptingMetric {
 
 impl Control {
     /// Whether a metric is meant to feel the error.
-    #[must_use]
     pub fn is_named_by(&self, metric: &str) -> bool {
         let is_accepted = self.accepted_by.iter().any(|entry| entry.metric == metric);
         is_accepted || self.rejected_by.iter().any(|name| name == metric)
     }
 
     /// Whether a report runs it beside the case; the others stand in the table.
-    #[must_use]
     pub fn is_of_report(&self) -> bool {
         self.solver.is_none() && !self.in_table
     }
 
     /// The command that runs it.
-    #[must_use]
     pub fn command(&self, case: &str) -> String {
         if let Some(error) = &self.solver {
             return format!("cargo run -p bagnold-dev -- mutate trial {error} {case}");

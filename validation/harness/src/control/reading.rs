@@ -34,7 +34,6 @@ pub(super) fn text(file: &str) -> Option<&'static str> {
 ///
 /// # Panics
 /// If its file is malformed. No user can bring that about: the files are part of the program, and tests read every one of them.
-#[must_use]
 pub fn of_case(case: &str) -> Vec<Control> {
     let file = format!("{case}.toml");
     text(&file).map_or_else(Vec::new, |text| parse(&file, text).unwrap_or_else(|error| panic!("failed to {error}")))

@@ -64,7 +64,6 @@ impl ErrorSeries {
 
 impl Control {
     /// The series that the control is of, and the factor of its parameter `[-]`; none for one that stands alone.
-    #[must_use]
     pub fn size(&self) -> Option<(&'static ErrorSeries, f64)> {
         let error = self.solver.as_ref()?;
         let factor =

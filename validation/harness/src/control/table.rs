@@ -36,7 +36,6 @@ pub struct TriedControls {
 
 impl TriedControls {
     /// These trials, by this program's solver.
-    #[must_use]
     pub fn by_this_program(trials: &[ControlTrial]) -> Self {
         let (solver_hash, commit) = (provenance::solver_hash().to_owned(), provenance::commit().to_owned());
         let entry = |trial: &ControlTrial| (trial.control.name.clone(), (trial.found.clone(), trial.diverged));
@@ -44,7 +43,6 @@ impl TriedControls {
     }
 
     /// The file of a case, in the folder of the controls.
-    #[must_use]
     pub fn file(case: &str) -> String {
         format!("tried/{case}.csv")
     }
@@ -53,7 +51,6 @@ impl TriedControls {
     ///
     /// # Panics
     /// If it is malformed, which a test excludes.
-    #[must_use]
     pub fn shipped(case: &str) -> Self {
         let read = |text| Self::parse(text).unwrap_or_else(|error| panic!("{}: {error}", Self::file(case)));
         text(&Self::file(case)).map_or_else(Self::default, read)
@@ -104,7 +101,6 @@ impl TriedControls {
     }
 
     /// Whether another table has the same numbers, whichever solver gave them.
-    #[must_use]
     pub fn agrees(&self, other: &Self) -> bool {
         // by their text, for what is not measured is no number
         let rows = |table: &Self| table.text().map(|text| text.split_once('\n').map(|(_, rows)| rows.to_owned())).ok();
@@ -112,7 +108,6 @@ impl TriedControls {
     }
 
     /// Result of a control; none where it was never tried.
-    #[must_use]
     pub fn trial(&self, control: &Control) -> Option<ControlTrial> {
         let (found, diverged) = self.tried.get(&control.name)?.clone();
         let tried_at = (self.solver_hash != provenance::solver_hash()).then(|| self.commit.clone());

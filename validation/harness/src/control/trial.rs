@@ -45,7 +45,6 @@ pub struct ControlTrial {
 impl ControlTrial {
     /// Compares the metrics of the right case with those of the control, each beside its runs. A metric is missing where its run was done and
     /// does not give it.
-    #[must_use]
     pub fn of(
         control: Control,
         (right, right_runs): (&[Metric], &[Variant]),
@@ -66,19 +65,16 @@ impl ControlTrial {
     }
 
     /// A metric of the right case as the control has it; none where the control's runs do not measure it.
-    #[must_use]
     pub fn found(&self, name: &str, variant: &Variant) -> Option<&Found> {
         self.found.iter().find(|found| found.metric == name && found.variant == *variant)
     }
 
     /// Whether a number went with a run that diverged: it shows nothing.
-    #[must_use]
     pub fn is_lost(&self, found: &Found) -> bool {
         self.diverged && !found.value.is_finite()
     }
 
     /// Answer of the gate of a metric of the right case; none without a gate, or where the control's runs do not measure it.
-    #[must_use]
     pub fn answer(&self, right: &Metric) -> Option<Answer> {
         let found = self.found(&right.name, &right.variant)?;
         Some(match (right.verdict(), found.verdict) {
@@ -94,7 +90,6 @@ impl ControlTrial {
 
 impl Found {
     /// A metric of the right case, and the same of the control's.
-    #[must_use]
     pub fn of(right: &Metric, wrong: Option<&Metric>) -> Self {
         Self {
             metric: right.name.clone(),

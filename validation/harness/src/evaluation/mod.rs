@@ -51,14 +51,12 @@ pub struct CaseRequest {
 }
 
 /// A number as TOML writes it, with all its digits: the value of a setting.
-#[must_use]
 pub fn toml_number(value: f64) -> String {
     toml::Value::Float(value).to_string()
 }
 
 impl CaseRequest {
     /// Label of the request in tables.
-    #[must_use]
     pub fn label(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.case)
     }
@@ -106,7 +104,6 @@ pub fn chosen(
 }
 
 /// The hash that an evaluation is known by, with what its figures are compared with: 32 hexadecimal digits.
-#[must_use]
 pub fn key(prepared: &dyn PreparedCase, overlay: &[Measurements]) -> String {
     let mut hash = Sha256::new();
     let variants: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run).to_string()).collect();

@@ -16,7 +16,6 @@ pub enum Paths {
 
 impl Paths {
     /// The dotted path in a case.
-    #[must_use]
     pub fn in_case(&self, case: &str) -> Option<&str> {
         match self {
             Self::Everywhere(path) => Some(path),
@@ -25,7 +24,6 @@ impl Paths {
     }
 
     /// A short name: the last key of the path.
-    #[must_use]
     pub fn name(&self) -> String {
         let path = match self {
             Self::Everywhere(path) => Some(path),

@@ -73,13 +73,11 @@ impl EvaluationRecord {
     }
 
     /// A record without numbers.
-    #[must_use]
     pub fn failed(key: &str, case: &str, reason: &str) -> Self {
         Self { key: key.to_owned(), case: case.to_owned(), failure: Some(reason.to_owned()), ..Self::default() }
     }
 
     /// The record in a file; `None` if there is none, it is damaged or it belongs to another key.
-    #[must_use]
     pub fn read(path: &Path, key: &str) -> Option<Self> {
         match entry::read::<Self>(path, key) {
             Ok(record) => record,

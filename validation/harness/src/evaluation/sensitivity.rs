@@ -24,7 +24,6 @@ pub struct SensitivityPlan {
 
 impl SensitivityPlan {
     /// Plan that propagates the stated ranges of a case; empty if none are stated.
-    #[must_use]
     pub fn of(case: &str) -> Self {
         let Some(stated) = StatedUncertainty::of(case) else { return Self { steps: Vec::new() } };
         if stated.ranges.is_empty() && stated.spacings.is_empty() {
@@ -56,7 +55,6 @@ impl SensitivityPlan {
     }
 
     /// Whether there is nothing to run.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
@@ -79,7 +77,6 @@ impl SensitivityPlan {
 
     /// The table of the results. A changed input may change the name of a run and take its reference away, so that the validations
     /// of one name are matched by their order.
-    #[must_use]
     pub fn rows(&self, results: &[CaseResult]) -> Vec<SensitivityRow> {
         let mut own = results.first().map(validations).unwrap_or_default();
         own.retain(|_, metrics| metrics.iter().any(|metric| metric.compared_with().is_some()));

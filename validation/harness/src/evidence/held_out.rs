@@ -53,7 +53,6 @@ pub struct HeldOutDatum {
 
 impl HeldOutDatum {
     /// Whether datum and prediction agree within two `u_val`; none where the parameters are too uncertain to tell.
-    #[must_use]
     pub fn agrees(&self) -> Option<bool> {
         let agrees = self.deviation.abs() <= AGREES;
         (!agrees || self.spread <= TOO_UNCERTAIN).then_some(agrees)
@@ -62,7 +61,6 @@ impl HeldOutDatum {
 
 impl HeldOutJudgement {
     /// The sentence that sums up the judgement.
-    #[must_use]
     pub fn in_words(&self) -> String {
         let count = |wanted: Option<bool>| self.data.iter().filter(|datum| datum.agrees() == wanted).count();
         let (agree, differ, open) = (count(Some(true)), count(Some(false)), count(None));
@@ -79,7 +77,6 @@ impl HeldOutJudgement {
     ///
     /// # Panics
     /// If one is malformed. No user can bring that about: they are part of the program, and a test reads each.
-    #[must_use]
     pub fn shipped() -> Vec<(&'static str, Self)> {
         carried(&FILES, ".json", serde_json::from_str).into_iter().collect()
     }

@@ -17,7 +17,6 @@ pub enum Basis {
 
 impl Basis {
     /// For a reader.
-    #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
             Self::Stated => "stated",
@@ -75,13 +74,11 @@ impl InputRange {
     }
 
     /// The parameter that it is the range of, as a path.
-    #[must_use]
     pub fn path(&self) -> Option<&str> {
         Self::first(&self.low).map(|(path, _)| path)
     }
 
     /// Position of the case's own value in the range, 0 at the lower and 1 at the upper end `[-]`; none outside.
-    #[must_use]
     pub fn place(&self) -> Option<f64> {
         let (low, high) = (Self::first(&self.low)?, Self::first(&self.high)?);
         let scale = |value: f64| match self.spread {
@@ -93,7 +90,6 @@ impl InputRange {
     }
 
     /// Whether a comparison's input is known so.
-    #[must_use]
     pub fn is_of(&self, variant: &Variant) -> bool {
         let is_included = |other: &Variant| variant.includes(other);
         !self.not_for.iter().any(is_included) && (self.only_for.is_empty() || self.only_for.iter().any(is_included))

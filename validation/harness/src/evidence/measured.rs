@@ -87,7 +87,6 @@ pub enum ReferenceColumn {
 
 impl ReferenceColumn {
     /// Name without the unit.
-    #[must_use]
     pub fn name(&self) -> &str {
         match self {
             Self::Numbers(NumberColumn { name, .. }) | Self::Labels { name, .. } => name,

@@ -98,7 +98,6 @@ pub struct Printed {
 
 impl Printed {
     /// Whether a number agrees with what is printed; NaN never does.
-    #[must_use]
     pub fn agrees(&self, value: f64) -> bool {
         let is_above = self.at_least.is_none_or(|bound| value >= bound);
         is_above && self.at_most.is_none_or(|bound| value <= bound)
@@ -106,7 +105,6 @@ impl Printed {
 
     /// Whether a number known to ± `expanded` is told from the other side of what is printed: within a range half as wide, or as far from an
     /// end.
-    #[must_use]
     pub fn tells(&self, value: f64, expanded: f64) -> bool {
         match (self.at_least, self.at_most) {
             (Some(low), Some(high)) if (low..=high).contains(&value) => low == high || expanded <= 0.5 * (high - low),
@@ -122,7 +120,6 @@ const QUANTITY: &str = "quantity";
 
 impl MetricName {
     /// Whether it names the metric of a case: one of another `quantity` is another number.
-    #[must_use]
     pub fn names(&self, metric: &str, variant: &Variant) -> bool {
         let same_quantity = self.variant.get(QUANTITY) == variant.get(QUANTITY);
         self.metric == metric && same_quantity && variant.includes(&self.variant)
@@ -131,7 +128,6 @@ impl MetricName {
 
 impl RunName {
     /// Whether it names the run of a case.
-    #[must_use]
     pub fn names(&self, run: &Variant) -> bool {
         run.includes(&self.variant)
     }

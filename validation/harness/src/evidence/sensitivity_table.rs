@@ -54,7 +54,6 @@ fn rows(text: &str) -> Result<Vec<SensitivityRow>, csv::Error> {
 ///
 /// # Panics
 /// If the table that the program carries is malformed, which a test would find.
-#[must_use]
 pub fn sensitivity_table(case: &str) -> &'static [SensitivityRow] {
     TABLES.get(case).map_or(&[], Vec::as_slice)
 }

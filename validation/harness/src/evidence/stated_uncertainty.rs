@@ -113,19 +113,16 @@ impl StatedUncertainty {
     ///
     /// # Panics
     /// If the file that the program carries is malformed, which a test would find.
-    #[must_use]
     pub fn of(case: &str) -> Option<&'static Self> {
         STATED.get(case)
     }
 
     /// Whether a comparison is of a run that is there to show what an input does.
-    #[must_use]
     pub fn is_altered(&self, variant: &Variant) -> bool {
         self.altered.iter().any(|other| variant.includes(other))
     }
 
     /// Reason why a part of a comparison's uncertainty is unknown; none if no reason is stated.
-    #[must_use]
     pub fn reason(&self, part: ComparisonPart, metric: &Metric) -> Option<&str> {
         let is_it = |own: &&UnknownPart| own.part == part && concerns(&own.quantities, &own.variant, metric);
         let altered = (part == ComparisonPart::Input && self.is_altered(&metric.variant)).then_some(ALTERED);
@@ -133,7 +130,6 @@ impl StatedUncertainty {
     }
 
     /// Whether something is stated of a part of a comparison without runs: a number, or why there is none.
-    #[must_use]
     pub fn says(&self, part: ComparisonPart, metric: &Metric) -> bool {
         let is_stated = |own: &StatedPart| own.part == part && concerns(&own.quantities, &own.variant, metric);
         self.parts.iter().any(is_stated) || self.reason(part, metric).is_some()
@@ -191,7 +187,6 @@ impl StatedUncertainty {
 }
 
 /// The metrics of a case with all that is stated of how far they are known.
-#[must_use]
 pub fn completed(case: &str, metrics: Vec<Metric>) -> Vec<Metric> {
     let Some(stated) = StatedUncertainty::of(case) else { return metrics };
     let table = sensitivity_table(case);

@@ -75,7 +75,6 @@ impl ValidatedComparison {
     }
 
     /// All of a case.
-    #[must_use]
     pub fn all(case: &str, metrics: &[Metric], runs: &[(Variant, FlowRegime)]) -> Vec<Self> {
         metrics.iter().filter_map(|metric| Self::of(case, metric, runs)).collect()
     }
@@ -119,7 +118,6 @@ impl ValidationSet {
     ///
     /// # Panics
     /// If it is malformed, which a test would find.
-    #[must_use]
     pub fn shipped() -> &'static Self {
         &SHIPPED
     }
@@ -159,7 +157,6 @@ impl ValidationSet {
     }
 
     /// Number of comparisons of some quantities, without those that show the effect of an input.
-    #[must_use]
     pub fn number(&self, quantities: &[&str]) -> usize {
         self.own(quantities).count()
     }
@@ -171,13 +168,11 @@ impl ValidationSet {
 
     /// Bias and scatter of some quantities; none with fewer than three comparisons. What is there to show what an input does is no
     /// comparison of its own: it would count an experiment several times, and its inputs as the model's scatter.
-    #[must_use]
     pub fn bias(&self, quantities: &[&str]) -> Option<ModelBias> {
         model_bias(&self.own(quantities).filter_map(ValidatedComparison::comparison).collect::<Vec<_>>())
     }
 
     /// Root mean square of the relative standard uncertainties by the inputs of these comparisons, where they are known `[-]`.
-    #[must_use]
     pub fn input_uncertainty(&self, quantities: &[&str]) -> Option<f64> {
         let own = self.own(quantities).filter(|row| row.comparison().is_some());
         let squares: Vec<f64> = own.filter_map(|row| row.input_uncertainty).map(|own| own * own).collect();
@@ -187,14 +182,12 @@ impl ValidationSet {
     /// Bounds of prediction over true value of a further flow with 95 % confidence `[-]`. The comparisons of an experiment have its
     /// inputs in common, so that an error of those moves all of them and no scatter shows it; a further flow has inputs of its own, known no
     /// better, and they come beside the scatter.
-    #[must_use]
     pub fn next_ratio(&self, quantities: &[&str]) -> Option<(f64, f64)> {
         let bias = self.bias(quantities)?;
         Some(bias.next_ratio_beside(self.input_uncertainty(quantities).unwrap_or(0.0)))
     }
 
     /// Least and greatest of each number of the regime among the comparisons of some quantities.
-    #[must_use]
     pub fn ranges(&self, quantities: &[&str]) -> [Option<(f64, f64)>; 4] {
         let range = |place: usize| {
             let known = self.of(quantities).filter_map(|row| row.regime().numbers()[place]);
@@ -207,7 +200,6 @@ impl ValidationSet {
 
     /// 95 % prediction interval of the true value for a predicted `value`, from the comparisons of some quantities;
     /// none if there are too few.
-    #[must_use]
     pub fn predict(&self, quantities: &[&str], regime: FlowRegime, value: f64) -> Option<PredictionInterval> {
         let bias = self.bias(quantities)?;
         let (least, most) = self.next_ratio(quantities)?;

@@ -8,7 +8,6 @@ use std::path::Path;
 
 /// Whether a terminal obeys a character instead of showing it: control characters, marks and overrides of the direction of
 /// writing, separators of lines and paragraphs.
-#[must_use]
 pub fn is_control(letter: char) -> bool {
     let changes_direction =
         matches!(letter, '\u{200e}' | '\u{200f}' | '\u{61c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
@@ -16,19 +15,16 @@ pub fn is_control(letter: char) -> bool {
 }
 
 /// The text with such characters as in a Rust literal: `\u{1b}`, `\n`.
-#[must_use]
 pub fn escaped(text: &str) -> Cow<'_, str> {
     escaped_where(text, is_control)
 }
 
 /// The same for a text of several lines, which stay lines; tabs stay as well.
-#[must_use]
 pub fn escaped_lines(text: &str) -> Cow<'_, str> {
     escaped_where(text, |letter| is_control(letter) && !matches!(letter, '\n' | '\t'))
 }
 
 /// A path as a message shows it.
-#[must_use]
 pub fn shown(path: &Path) -> String {
     escaped(&path.display().to_string()).into_owned()
 }

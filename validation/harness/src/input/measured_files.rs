@@ -29,7 +29,6 @@ pub enum MeasuredFiles {
 
 impl MeasuredFiles {
     /// The files.
-    #[must_use]
     pub fn files(&self) -> &[PathBuf] {
         match self {
             Self::One(file) => std::slice::from_ref(file),
@@ -38,7 +37,6 @@ impl MeasuredFiles {
     }
 
     /// The same files, named from where a folder is.
-    #[must_use]
     pub fn beside(&self, folder: &Path) -> Self {
         let files = self.files().iter().map(|file| folder.join(file)).collect();
         match self {

@@ -38,27 +38,23 @@ pub fn check_text(field: &str, text: &str) -> Result<(), FieldError> {
 }
 
 /// Name and unit of a heading or label such as `y [m]`; none without a unit.
-#[must_use]
 pub fn name_and_unit(text: &str) -> Option<(&str, &str)> {
     let (name, unit) = text.trim().strip_suffix(']')?.rsplit_once('[')?;
     Some((name.trim(), unit.trim()))
 }
 
 /// Name and unit of a heading or label; `-` where there is no unit.
-#[must_use]
 pub fn parted(text: &str) -> (&str, &str) {
     name_and_unit(text).unwrap_or((text.trim(), "-"))
 }
 
 /// Equality of two headings by name and by unit, however that is spelt.
-#[must_use]
 pub fn is_same_heading(one: &str, other: &str) -> bool {
     let of_one_unit = |((name, unit), (other, of))| name == other && unit::factor(unit, of) == Some(1.0);
     one == other || name_and_unit(one).zip(name_and_unit(other)).is_some_and(of_one_unit)
 }
 
 /// The name that is most like `name`, if any is like it at all or has it for one of its words.
-#[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     // Jaro–Winkler forgives a wrong tail and swapped letters; below this a suggestion would be a guess.
     const LEAST: f64 = 0.85;

@@ -3,7 +3,6 @@
 use toml::Value;
 
 /// The number of a value, whole or not; none of another type.
-#[must_use]
 pub fn number_in(value: &Value) -> Option<f64> {
     value.as_float().or(value.as_integer().map(|whole| whole as f64))
 }

@@ -26,32 +26,27 @@ pub struct PackedTriangles {
 
 impl PackedTriangles {
     /// Whether there is no text.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.text.is_empty()
     }
 
     /// The beginning of a text that says no triangles, if it is such a one.
-    #[must_use]
     pub fn damage(&self) -> Option<String> {
         let is_damaged = !self.is_empty() && self.triangles.is_empty();
         is_damaged.then(|| format!("\"{}\"", self.text.chars().take(12).collect::<String>()))
     }
 
     /// The triangles, each by its corners `[m]`.
-    #[must_use]
     pub fn triangles(&self) -> &[Triangle] {
         &self.triangles
     }
 
     /// Lower and upper corner of their box `[m]`; none without triangles.
-    #[must_use]
     pub fn bounds(&self) -> Option<[[f64; 3]; 2]> {
         self.bounds
     }
 
     /// Sum of their areas `[m²]`.
-    #[must_use]
     pub fn area(&self) -> f64 {
         self.area
     }

@@ -83,7 +83,6 @@ pub struct TableRows<'t> {
 
 impl<'t> TableRows<'t> {
     /// A heading for each column, of the first line or of the last comment above the rows; empty where there is none.
-    #[must_use]
     pub fn headings(&self) -> &[&'t str] {
         let headings = self.heading.as_ref().map_or(&self.comment, |(_, words)| words);
         if self.rows.first().is_some_and(|(_, row)| row.len() == headings.len()) { headings } else { &[] }

@@ -74,7 +74,6 @@ pub fn draw_measured(result: &mut CaseResult, measurements: &[Measurements]) -> 
 }
 
 /// A case file that names the copies of measurements beside it.
-#[must_use]
 pub fn with_overlay(case_file: &str, measurements: &[Measurements]) -> String {
     let files: Vec<toml::Value> = measurements.iter().map(|own| toml::Value::String(own.kept())).collect();
     let line = format!("overlay = {}\ntier = ", toml::Value::Array(files));
@@ -121,13 +120,11 @@ impl Measurements {
     }
 
     /// Name of the file without its ending: the measurements' name in figures and metrics.
-    #[must_use]
     pub fn name(&self) -> String {
         self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
     /// Name of their points in a legend.
-    #[must_use]
     pub fn legend(&self) -> String {
         if self.repeats == 1 { self.name() } else { format!("{}, mean of {}", self.name(), self.repeated()) }
     }
@@ -148,7 +145,6 @@ impl Measurements {
     }
 
     /// Limit of the residuals' root mean square that the file states `[-]`, with its reason.
-    #[must_use]
     pub fn limit(&self) -> Option<(Limit, String)> {
         let reason = || format!("the limit that {} states", self.path.display());
         self.said.limit.map(|limit| (Limit::AtMost(limit), reason()))
@@ -213,7 +209,6 @@ impl Measurements {
     }
 
     /// Path of the copy in the folder of a run.
-    #[must_use]
     pub fn kept(&self) -> String {
         format!("overlay/{}.csv", self.name())
     }

@@ -16,10 +16,7 @@ const KEYS: [&str; 6] = ["limit", "figure", "panel", "curve", "source", "confide
 /// Words of a heading of standard uncertainties.
 const UNCERTAINTY: [&str; 5] = ["uncertainty", "sigma", "σ", "std", "stdev"];
 
-/// The form of a file.
-const FORM: &str = "abscissa, quantity, uncertainty or repeats, with units";
-
-/// A row of that form.
+/// A heading and a row of a file.
 const ROW: &str =
     "write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`, repeats as `front #1 [cm],front #2 [cm]`";
 

@@ -44,7 +44,6 @@ pub enum Verdict {
 
 impl Verdict {
     /// Its word in files.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Self::Pass => "pass",
@@ -54,7 +53,6 @@ impl Verdict {
     }
 
     /// That of a word; none of another.
-    #[must_use]
     pub fn of_word(word: &str) -> Option<Self> {
         [Self::Pass, Self::Fail, Self::Observed].into_iter().find(|own| own.word() == word)
     }
@@ -81,7 +79,6 @@ impl Confidence {
     pub const STATED: &'static str = "high, medium, low, unverified";
 
     /// Confidence of one of those words.
-    #[must_use]
     pub fn stated(word: &str) -> Option<Self> {
         let all = [Self::High, Self::Medium, Self::Low, Self::Unverified];
         Self::STATED.split(", ").zip(all).find(|(known, _)| *known == word).map(|(_, own)| own)
@@ -103,7 +100,6 @@ pub enum Limit {
 impl Limit {
     /// Whether `value` respects the limit. What is not a finite number never does, and a bound that is not one holds
     /// nothing: both say that something was not measured or not known.
-    #[must_use]
     pub fn holds(self, value: f64) -> bool {
         let (lower, upper) = match self {
             Self::AtMost(bound) => (f64::MIN, bound),
@@ -114,7 +110,6 @@ impl Limit {
     }
 
     /// The rule, with its bounds as `digits` writes them: `≤ 0.7`, `0.5 … 2`.
-    #[must_use]
     pub fn in_words(self, digits: impl Fn(f64) -> String) -> String {
         match self {
             Self::AtMost(bound) => format!("≤ {}", digits(bound)),
@@ -124,7 +119,6 @@ impl Limit {
     }
 
     /// Distance of `value` to the nearest bound, in the metric's unit; negative where the limit is broken.
-    #[must_use]
     pub fn margin(self, value: f64) -> f64 {
         match self {
             Self::AtMost(bound) => bound - value,
@@ -244,7 +238,6 @@ impl Metric {
 
     /// Whether the spacing may move the value, twice its standard uncertainty, by more than the scatter that its gate is as
     /// wide as: the gate then says nothing of the physics.
-    #[must_use]
     pub fn is_coarser_than_gate(&self) -> bool {
         let width = self.gate.as_ref().and_then(|gate| gate.statistical);
         width.zip(self.uncertainty.of(&[Origin::Numerical])).is_some_and(|(width, spacing)| COVERAGE * spacing > width)
@@ -259,7 +252,6 @@ impl Metric {
     }
 
     /// Owner of the metric's gate; the case if it has no gate.
-    #[must_use]
     pub fn gate_owner(&self) -> GateOwner {
         self.gate.as_ref().map_or(GateOwner::Case, |gate| gate.owner)
     }
@@ -298,7 +290,6 @@ impl Metric {
 
     /// The reference's value where the metric is a comparison with something from outside: a measurement, a published fit or
     /// another's simulation, whose number is known and verified.
-    #[must_use]
     pub fn compared_with(&self) -> Option<f64> {
         let reference = self.reference.as_ref().filter(|_| self.kind == MetricKind::Validation)?;
         let is_from_outside = !matches!(reference.confidence, Confidence::Exact | Confidence::Unverified);
@@ -338,13 +329,11 @@ impl Metric {
     }
 
     /// Reason for a missing value, where one is known; none beside a value.
-    #[must_use]
     pub fn reason_of_absence(&self) -> Option<&String> {
         self.remark.as_ref().filter(|_| self.value.is_nan())
     }
 
     /// Reason for a missing value, in a word or two.
-    #[must_use]
     pub fn without_value(&self) -> Option<&'static str> {
         let reason = self.reason_of_absence()?;
         Some(match reason.as_str() {
@@ -369,7 +358,6 @@ impl Metric {
     }
 
     /// The gate's outcome. An unverified reference never gates, nor does a width of scatter that the spacing exceeds.
-    #[must_use]
     pub fn verdict(&self) -> Verdict {
         let unverified =
             self.reference.as_ref().is_some_and(|reference| reference.confidence == Confidence::Unverified);

@@ -37,13 +37,11 @@ impl FlowRegime {
     }
 
     /// a, θ `[°]`, I and D/h.
-    #[must_use]
     pub const fn numbers(&self) -> [Option<f64>; 4] {
         [self.aspect_ratio, self.slope_angle, self.inertial_number, self.grain_ratio]
     }
 
     /// Whether nothing is known of it.
-    #[must_use]
     pub fn is_unknown(&self) -> bool {
         self.numbers().iter().all(Option::is_none)
     }

@@ -6,7 +6,6 @@ const LARGEST_CHANGE: f64 = 0.01;
 
 /// Reason why a mean over the last `window` `[s]` of a series of (time `[s]`, value) is not steady; none if it is, or
 /// if there is no series. `quantity` names what the series is of.
-#[must_use]
 pub fn unsteadiness(quantity: &str, series: impl Iterator<Item = (f64, f64)>, window: f64) -> Option<String> {
     let samples: Vec<(f64, f64)> = series.collect();
     // another code may give its profile alone

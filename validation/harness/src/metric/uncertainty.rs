@@ -23,7 +23,6 @@ pub enum Origin {
 
 impl Origin {
     /// Its name for a reader.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Experiment => "experiment",
@@ -52,7 +51,6 @@ impl ComparisonPart {
     pub const ALL: [Self; 3] = [Self::Numerical, Self::Input, Self::Reference];
 
     /// The origins that belong to it.
-    #[must_use]
     pub const fn origins(self) -> &'static [Origin] {
         match self {
             Self::Numerical => &[Origin::Numerical, Origin::Repeat],
@@ -62,7 +60,6 @@ impl ComparisonPart {
     }
 
     /// Symbol of the part.
-    #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {
             Self::Numerical => "u_num",
@@ -85,7 +82,6 @@ pub struct UncertaintyComponent {
 
 impl UncertaintyComponent {
     /// Name of the component: its source up to the first bracket.
-    #[must_use]
     pub fn name(&self) -> &str {
         self.source.split(" (").next().unwrap_or(&self.source)
     }
@@ -100,38 +96,32 @@ pub struct Uncertainty {
 
 impl Uncertainty {
     /// The parts in the order in which they were added.
-    #[must_use]
     pub fn parts(&self) -> &[UncertaintyComponent] {
         &self.parts
     }
 
     /// Whether nothing is known.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }
 
     /// Root of the sum of squares of all parts, in the metric's unit; none where nothing is known.
-    #[must_use]
     pub fn standard(&self) -> Option<f64> {
         root_of_squares(self.parts.iter())
     }
 
     /// The same of the parts of these origins.
-    #[must_use]
     pub fn of(&self, origins: &[Origin]) -> Option<f64> {
         root_of_squares(self.parts.iter().filter(|part| origins.contains(&part.origin)))
     }
 
     /// The same of what belongs to a part of a comparison.
-    #[must_use]
     pub fn of_part(&self, part: ComparisonPart) -> Option<f64> {
         self.of(part.origins())
     }
 
     /// The largest of what belongs to a part of a comparison, with its share of the sum of squares `[-]`; none where nothing is known or
     /// all is nothing.
-    #[must_use]
     pub fn largest(&self, part: ComparisonPart) -> Option<(&UncertaintyComponent, f64)> {
         let all = self.of_part(part).filter(|all| *all > 0.0)?;
         let own = self.parts.iter().filter(|own| part.origins().contains(&own.origin));

@@ -25,7 +25,6 @@ impl Energies<'_> {
 
     /// Largest excess of kinetic plus potential energy over that of the start, over the initial potential energy `[-]`;
     /// never negative, since the start counts.
-    #[must_use]
     pub fn largest_gain(&self) -> f64 {
         let total = self.kinetic.iter().zip(self.potential).map(|(kinetic, potential)| kinetic + potential);
         let largest = total.fold(f64::NEG_INFINITY, f64::max);

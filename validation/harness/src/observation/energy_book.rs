@@ -83,7 +83,6 @@ impl EnergyBook {
     }
 
     /// Largest difference between what the energy has changed by since the start and what the ledger says.
-    #[must_use]
     pub fn residual(&self) -> f64 {
         let open: Vec<f64> =
             self.total.iter().zip(&self.explained).map(|(total, explained)| total - explained).collect();
@@ -93,7 +92,6 @@ impl EnergyBook {
 
     /// The work that a run is about: the largest of gravity's, of walls', of what was dissipated, and of what came in with the
     /// motion of the start and through inlets. What swings to and fro counts each time.
-    #[must_use]
     pub fn turnover(&self) -> f64 {
         let dissipated: f64 = self.dissipated.iter().map(|(_, energy)| energy.abs()).sum();
         self.exchanged.0.max(self.exchanged.1).max(dissipated).max(self.entered.0 + self.entered.1)
@@ -101,7 +99,6 @@ impl EnergyBook {
 
     /// Energy that the viscosity of the law has dissipated up to the last sample, and what the scheme has: by artificial terms, the
     /// hourglass control at walls and the density coupling, less what it has fed in beside gravity and walls.
-    #[must_use]
     pub fn viscous_and_numerical(&self) -> (f64, f64) {
         let of =
             |cause: &str| self.dissipated.iter().find(|(name, _)| name == cause).map_or(0.0, |(_, energy)| *energy);
@@ -111,7 +108,6 @@ impl EnergyBook {
     }
 
     /// Largest rise of the total energy above its least value before.
-    #[must_use]
     pub fn rise(&self) -> f64 {
         let mut least = f64::INFINITY;
         self.total.iter().fold(0.0, |most: f64, &total| {

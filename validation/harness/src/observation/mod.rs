@@ -45,31 +45,26 @@ pub struct Frame {
 
 impl Frame {
     /// A scalar of every particle by its name; empty where the picture has no such scalar.
-    #[must_use]
     pub fn scalar(&self, name: &str) -> &[f64] {
         self.scalars.iter().find(|(other, _, _)| other == name).map_or(&[], |(_, _, values)| values)
     }
 
     /// A vector of every particle by its name; empty where the picture has no such vector.
-    #[must_use]
     pub fn vector(&self, name: &str) -> &[[f64; 3]] {
         self.vectors.iter().find(|(other, _, _)| other == name).map_or(&[], |(_, _, values)| values)
     }
 
     /// Speeds of all particles `[m/s]`.
-    #[must_use]
     pub fn speeds(&self) -> Vec<f64> {
         self.vector("velocity").iter().map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt()).collect()
     }
 
     /// Pressures of all particles `[kPa]`.
-    #[must_use]
     pub fn pressures(&self) -> Vec<f64> {
         self.scalar("pressure").iter().map(|p| p * 1e-3).collect()
     }
 
     /// The frame whose time is nearest.
-    #[must_use]
     pub fn nearest(frames: &[Self], time: f64) -> Option<&Self> {
         frames.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
     }
@@ -119,7 +114,6 @@ impl<O> Recorded<O> {
 }
 
 /// Hash of a state's bytes: 32 hexadecimal digits of its SHA-256.
-#[must_use]
 pub fn state_hash(bytes: &[u8]) -> String {
     use sha2::Digest;
     sha2::Sha256::digest(bytes).iter().take(16).map(|byte| format!("{byte:02x}")).collect()

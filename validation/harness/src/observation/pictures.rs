@@ -51,7 +51,6 @@ impl View {
 }
 
 /// The animation of a run: particles in the colours of their speed, dashed the thickness by volume and the front.
-#[must_use]
 pub fn animation(name: &str, caption: &str, motion: &MotionSequence, view: &View) -> Animation {
     let unit = view.unit_length;
     let scaled = |[x, y]: [f32; 2]| [(f64::from(x) / unit) as f32, (f64::from(y) / unit) as f32];

@@ -38,7 +38,6 @@ pub enum FileError {
 
 impl FileError {
     /// A file that cannot be read, with the system's reason.
-    #[must_use]
     pub fn unreadable(file: &Path, error: &std::io::Error) -> Self {
         let remedy = match error.kind() {
             std::io::ErrorKind::InvalidData => "save it as plain text in UTF-8",
@@ -49,7 +48,6 @@ impl FileError {
     }
 
     /// A file or folder that cannot be written, with the system's reason.
-    #[must_use]
     pub fn unwritable(path: &Path, error: &std::io::Error) -> Self {
         Self::Unwritable { path: path.to_owned(), reason: reason(error) }
     }
@@ -96,7 +94,6 @@ pub enum FolderError {
 }
 
 /// The system's words without the error number, which means nothing to a reader: "permission denied".
-#[must_use]
 pub fn reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     let words = text.split(" (os error").next().unwrap_or(&text);

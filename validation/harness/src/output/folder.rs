@@ -68,19 +68,16 @@ impl OutputFolder {
     }
 
     /// Whether a folder is ours.
-    #[must_use]
     pub fn is_one(folder: &Path) -> bool {
         folder.join(MARKER).is_file()
     }
 
     /// The folder that is claimed.
-    #[must_use]
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
     /// Folder in which the new contents are written.
-    #[must_use]
     pub fn staging(&self) -> &Path {
         &self.staging
     }

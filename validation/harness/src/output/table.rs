@@ -33,14 +33,12 @@ pub fn csv_text<Row: Serialize>(rows: impl IntoIterator<Item = Row>) -> Result<S
 
 impl Table {
     /// A table from its rows.
-    #[must_use]
     pub fn of_rows(name: String, columns: &[&str], rows: impl IntoIterator<Item = Vec<f64>>) -> Self {
         let columns = columns.iter().map(|&column| column.to_owned()).collect();
         Self { name, columns, rows: rows.into_iter().collect() }
     }
 
     /// A table from arrays of the same length, each under its heading.
-    #[must_use]
     pub fn of_columns(name: String, columns: &[(&str, &[f64])]) -> Self {
         let rows = columns.iter().map(|(_, array)| array.len()).min().unwrap_or(0);
         let headings: Vec<&str> = columns.iter().map(|(heading, _)| *heading).collect();

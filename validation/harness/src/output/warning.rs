@@ -39,7 +39,6 @@ pub fn caution_about(subject: &str, text: &str) {
 }
 
 /// The different warnings by [`caution`] in this process, by their subjects.
-#[must_use]
 pub fn cautions() -> BTreeMap<String, String> {
     CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }

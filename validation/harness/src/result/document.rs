@@ -104,7 +104,6 @@ pub struct MetricEntry {
 
 impl Provenance {
     /// The provenance of a result that was computed on `threads` threads.
-    #[must_use]
     pub fn of(result: &CaseResult, threads: usize) -> Self {
         Self {
             version: store::version().to_owned(),
@@ -151,7 +150,6 @@ impl From<&Metric> for MetricEntry {
 
 impl MetricsDocument {
     /// The document of a result that was computed on `threads` threads.
-    #[must_use]
     pub fn of(result: &CaseResult, threads: usize) -> Self {
         Self {
             case: result.name.clone(),
@@ -166,14 +164,12 @@ impl MetricsDocument {
     }
 
     /// The document as text that ends with a line feed.
-    #[must_use]
     pub fn text(&self) -> String {
         pretty(self)
     }
 }
 
 /// First digits of the SHA-256 over names, variants and limits of gates: results of one digest were judged alike.
-#[must_use]
 pub fn gates_digest<'a>(metrics: impl IntoIterator<Item = &'a Metric>) -> String {
     let gated = metrics.into_iter().filter_map(|metric| metric.gate.as_ref().map(|gate| (metric, gate)));
     let lines: Vec<String> =

@@ -42,7 +42,6 @@ struct StateOutputProgress {
 
 impl States {
     /// Those of the runs of a case, in a folder that is there.
-    #[must_use]
     pub fn of(case: &dyn PreparedCase, plan: &OutputPlan, folder: &Path) -> Self {
         let run = |run: usize| RunStates {
             folder: folder.to_owned(),
@@ -54,7 +53,6 @@ impl States {
     }
 
     /// Takes the states of the run of that number.
-    #[must_use]
     pub fn run(&self, run: usize) -> Option<&dyn StateOutput> {
         self.runs.get(run).map(|run| run as &dyn StateOutput)
     }

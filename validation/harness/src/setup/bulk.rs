@@ -19,13 +19,11 @@ pub struct Bulk {
 
 impl Bulk {
     /// Grains of a solid fraction, with a law that has their density.
-    #[must_use]
     pub fn of_grains(solid_fraction: f64) -> Self {
         Self { solid_fraction, bulk_density: 0.0 }
     }
 
     /// Bulk density `[kg/m³]` of a law's material.
-    #[must_use]
     pub fn density(&self, law: &Rheology) -> f64 {
         let of_grains = || law.grain_density().map_or(self.bulk_density, |grains| self.solid_fraction * grains);
         law.pore_liquid().map_or_else(of_grains, |pore| pore.mixture_density())

@@ -38,7 +38,6 @@ pub fn displaced_flow<const D: usize>(
 }
 
 /// Exact pressure `[Pa]` of a compressible material at rest at `depth` `[m]` below its surface.
-#[must_use]
 pub fn hydrostatic_pressure(bulk_modulus: f64, reference_density: f64, gravity_across: f64, depth: f64) -> f64 {
     bulk_modulus * libm::expm1(reference_density * gravity_across * depth.max(0.0) / bulk_modulus)
 }

@@ -18,26 +18,22 @@ pub struct Lattice {
 
 impl Lattice {
     /// Height `[m]`.
-    #[must_use]
     pub fn height(&self) -> f64 {
         self.rows as f64 * self.spacing
     }
 
     /// Length of the period `[m]`.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.columns as f64 * self.spacing
     }
 
     /// As many particles as there are cells.
-    #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "a lattice has particles")]
     pub fn len(&self) -> usize {
         self.rows * self.columns
     }
 
     /// The rows below it, as walls are made of `[m]`.
-    #[must_use]
     pub fn below(&self, rows: usize) -> Self {
         Self { rows, bottom: self.bottom - rows as f64 * self.spacing, ..*self }
     }
@@ -52,7 +48,6 @@ impl Lattice {
     }
 
     /// Positions `[m]` displaced at random by at most `jitter` spacings along each axis.
-    #[must_use]
     pub fn displaced(&self, jitter: f64, seed: u64) -> Vec<Vector<2>> {
         displaced(self.sites(), jitter * self.spacing, seed).map(|(_, place)| place).collect()
     }

@@ -16,7 +16,6 @@ pub use lattice::Lattice;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 
 /// Acoustic bound of the time step `[s]` at a spacing `[m]` and a speed of sound `[m/s]`, for estimates before a run.
-#[must_use]
 pub fn acoustic_step(numerics: &Numerics, spacing: f64, sound_speed: f64) -> f64 {
     numerics.acoustic_courant * numerics.smoothing_ratio * spacing / sound_speed
 }

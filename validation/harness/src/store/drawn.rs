@@ -25,7 +25,6 @@ pub struct DrawingKey(Option<String>);
 
 impl Store {
     /// The drawings of this version of the sources.
-    #[must_use]
     pub fn drawings(&self) -> Drawings {
         let folder = (self.policy != StorePolicy::Bypass).then(|| self.folder.join(DRAWN));
         Drawings { folder, anew: self.policy == StorePolicy::Refresh, ..Drawings::default() }
@@ -34,19 +33,16 @@ impl Store {
 
 impl Drawings {
     /// The same place for figures of another format.
-    #[must_use]
     pub fn in_format(self, format: FigureFormat) -> Self {
         Self { format, ..self }
     }
 
     /// Format of the figures: their size.
-    #[must_use]
     pub fn format(&self) -> FigureFormat {
         self.format
     }
 
     /// The key of what is drawn.
-    #[must_use]
     pub fn key(&self, data: &impl Serialize) -> DrawingKey {
         let of = |bytes: Vec<u8>| {
             let mut hash = Sha256::new();
@@ -97,7 +93,6 @@ impl Drawings {
     }
 
     /// Number of drawings that had to be made.
-    #[must_use]
     pub fn made(&self) -> usize {
         self.made.load(Ordering::Relaxed)
     }

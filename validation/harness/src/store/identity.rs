@@ -28,7 +28,6 @@ impl CodeOrigin {
     pub const PACKAGE: Self = Self { is_elsewhere: false };
 
     /// That of several cases together: elsewhere, if any of them stands there.
-    #[must_use]
     pub fn and(self, other: Self) -> Self {
         if self == Self::PACKAGE { other } else { self }
     }
@@ -37,7 +36,6 @@ impl CodeOrigin {
 /// Identity of a program's results: SHA-256 in hexadecimal digits of everything that a result of such a case depends
 /// on, besides its parameters. `None` if the program's own file would have to be read and cannot be; a warning has said
 /// so.
-#[must_use]
 pub fn identity(origin: CodeOrigin) -> Option<&'static str> {
     let is_told_by_sources = origin == CodeOrigin::PACKAGE && is_declared() && registered().is_empty();
     if is_told_by_sources { Some(source_hash()) } else { own_program() }
@@ -45,7 +43,6 @@ pub fn identity(origin: CodeOrigin) -> Option<&'static str> {
 
 /// The same; for a program that cannot be read, a name that no other process has: nothing that was computed before is
 /// taken for its own.
-#[must_use]
 pub fn identity_or_unique(origin: CodeOrigin) -> &'static str {
     static UNIQUE: OnceLock<String> = OnceLock::new();
     identity(origin).unwrap_or_else(|| {
@@ -58,7 +55,6 @@ pub fn identity_or_unique(origin: CodeOrigin) -> &'static str {
 }
 
 /// Whether something was made by this program, with or without cases of another crate.
-#[must_use]
 pub fn is_of_this_program(identity: &str) -> bool {
     [CodeOrigin::PACKAGE, CodeOrigin::ELSEWHERE].into_iter().any(|origin| identity_or_unique(origin) == identity)
 }

@@ -77,7 +77,6 @@ impl Store {
     /// The store at its usual place: `BAGNOLD_STORE`; else, if one works in the workspace that this program was built
     /// in, its `reports/store`; else `bagnold` in the platform's folder for caches; else, without a home,
     /// `.bagnold-store` in the current folder.
-    #[must_use]
     pub fn open(policy: StorePolicy) -> Self {
         let root = match std::env::var_os("BAGNOLD_STORE") {
             Some(path) if !path.is_empty() => PathBuf::from(path),
@@ -90,7 +89,6 @@ impl Store {
     }
 
     /// The store in a folder of one's choice.
-    #[must_use]
     pub fn at(root: &Path, policy: StorePolicy) -> Self {
         Self::for_sources(root, source_hash(), policy)
     }
@@ -114,7 +112,6 @@ impl Store {
     }
 
     /// States near the end of the finished runs of a trajectory; emptied if everything is to begin anew.
-    #[must_use]
     pub fn ends(&self, key: &StoreKey) -> Checkpoints {
         let all = self.folder.join(ENDED);
         inventory::keep_newest(inventory::folders_in(&all).unwrap_or_default(), MOST_ENDED);
@@ -122,7 +119,6 @@ impl Store {
     }
 
     /// Checkpoints of an unfinished run; emptied if everything is to begin anew.
-    #[must_use]
     pub fn checkpoints(&self, key: &StoreKey) -> Checkpoints {
         self.kept_in(&self.checkpoint_folder(key), key)
     }
@@ -140,14 +136,12 @@ impl Store {
     }
 
     /// The folder that holds all versions.
-    #[must_use]
     pub fn root(&self) -> &Path {
         self.folder.parent().unwrap_or(&self.folder)
     }
 
     /// The key of a run of a case, or `None` if there is nothing to look up or keep: the store is bypassed, or it is impossible to
     /// tell which program this is.
-    #[must_use]
     pub fn key<R: Serialize>(&self, origin: CodeOrigin, case: &str, run: &R) -> Option<StoreKey> {
         if self.policy == StorePolicy::Bypass {
             return None;
@@ -169,7 +163,6 @@ impl Store {
     }
 
     /// The stored record; `None` if there is none, it is damaged, or it is not wanted.
-    #[must_use]
     pub fn fetch<O: DeserializeOwned>(&self, key: &StoreKey) -> Option<Recorded<O>> {
         if self.policy != StorePolicy::Use {
             return None;
@@ -242,7 +235,6 @@ fn is_version(name: &str) -> bool {
 }
 
 /// Lower-case hexadecimal digits of some bytes.
-#[must_use]
 pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

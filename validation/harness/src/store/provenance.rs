@@ -53,7 +53,6 @@ pub(super) fn is_declared() -> bool {
 }
 
 /// Version of the package.
-#[must_use]
 pub fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
 }
@@ -71,26 +70,22 @@ pub(super) fn simulation_hash(case: &str, description: &str) -> String {
 
 /// SHA-256 of everything that a result depends on; empty where nothing was declared. Laws and cases of another crate are no part
 /// of it; see [`identity`](super::identity).
-#[must_use]
 pub fn source_hash() -> &'static str {
     build().source_hash
 }
 
 /// SHA-256 of the solver's sources; empty where nothing was declared.
-#[must_use]
 pub fn solver_hash() -> &'static str {
     build().solver_hash
 }
 
 /// Cargo's profile, and how the solver is optimised in it: what drives and judges it is built faster.
-#[must_use]
 pub fn profile() -> String {
     let Build { profile, solver_opt_level, .. } = build();
     format!("{profile}, solver at opt-level {solver_opt_level}")
 }
 
 /// Warning about a program whose solver is not optimised; none for any other.
-#[must_use]
 pub fn unoptimised() -> Option<&'static str> {
     (build().solver_opt_level == "0").then_some(
         "the solver of this program is not optimised (opt-level 0) and takes many times longer, to the same bits; set \
@@ -105,14 +100,12 @@ pub fn instruction_set() -> &'static str {
 }
 
 /// Instruction set extensions that the compiler could count on everywhere else.
-#[must_use]
 pub fn target_features() -> &'static str {
     build().target_features
 }
 
 /// The workspace that this program was built in, if the current folder lies in it. Elsewhere an installed program must
 /// neither read nor write a checkout that happens to be there still.
-#[must_use]
 pub fn workspace() -> Option<&'static Path> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2)?;
     is_worked_in(root, &std::env::current_dir().ok()?).then_some(root)
@@ -126,13 +119,11 @@ fn is_worked_in(root: &Path, current: &Path) -> bool {
 /// Commit that this program was built from, with `+changes` after it if what it was built from differs from that commit;
 /// `unknown` for a program built from no repository. That of the build, whichever folder one works in: what is committed
 /// later without a change of the sources makes no other program.
-#[must_use]
 pub fn commit() -> &'static str {
     build().commit
 }
 
 /// The first digits of a commit, as many as a page needs, with what stands after it.
-#[must_use]
 pub fn short_commit(commit: &str) -> String {
     let (id, rest) = commit.split_once('+').map_or((commit, String::new()), |(id, rest)| (id, format!("+{rest}")));
     id.chars().take(12).collect::<String>() + &rest

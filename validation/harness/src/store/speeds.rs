@@ -58,7 +58,6 @@ impl Speeds {
 
     /// Time taken over the nominal one `[-]`: of that run, else the median of all runs of its case, which a single odd one does not
     /// move.
-    #[must_use]
     pub fn ratio(&self, case: &str, variant: &Variant) -> Option<f64> {
         let runs = &self.cases.get(case)?.runs;
         let ratio = |taken: f64, nominal: f64| (nominal > 0.0).then_some(taken / nominal);
@@ -74,13 +73,11 @@ impl Speeds {
     }
 
     /// Nominal time of the runs of a case that are known `[s]`.
-    #[must_use]
     pub fn nominal(&self, case: &str) -> f64 {
         self.cases.get(case).map_or(0.0, |case| case.runs.values().map(|run| run.nominal).sum())
     }
 
     /// Wall time of a command beside the runs of a case `[s]`.
-    #[must_use]
     pub fn beside(&self, case: &str, command: &str) -> Option<f64> {
         self.cases.get(case)?.beside.get(command).copied()
     }
@@ -92,7 +89,6 @@ pub struct AllSpeeds(BTreeMap<String, Speeds>);
 
 impl AllSpeeds {
     /// Those of a store; none where there is no file, or one that cannot be understood: they are measured again.
-    #[must_use]
     pub fn read(root: &Path) -> Self {
         read_text(&root.join(FILE), DOCUMENT).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
     }

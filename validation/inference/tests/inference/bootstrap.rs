@@ -34,7 +34,6 @@ impl Smooth for Redrawn<'_> {
 
 /// Fits the emulator to `repeats` sets of data that the model gives at the minimum, with noise of the stated standard
 /// uncertainties. Unlike the data themselves, these have no part that the model cannot explain.
-#[must_use]
 pub(super) fn bootstrap(emulator: &Emulator, repeats: usize, seed: u64) -> Bootstrap {
     let minimum = emulator.minimum().point;
     let fitted = DVector::from_vec(emulator.predict(&minimum));

@@ -222,7 +222,6 @@ impl PreparedCase for StudyPlan {
 }
 
 /// Canonical studies of embedded files, in the order of their names; other files are left alone.
-#[must_use]
 pub fn canonical(files: &'static [(&'static str, &'static str)], cases: Registry) -> Vec<&'static dyn AnyCase> {
     let studies = files.iter().filter_map(|(name, text)| Some((name.strip_suffix(".toml")?, *text)));
     let study = |(name, text)| CanonicalStudy { name, text, cases, read: OnceLock::new() };

@@ -136,13 +136,11 @@ impl Study {
     }
 
     /// Its name.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.text.study
     }
 
     /// The tier whose parameters fill what the file leaves out.
-    #[must_use]
     pub fn tier(&self) -> Tier {
         self.base.tier.unwrap_or(Tier::Quick)
     }

@@ -6,7 +6,6 @@ use serde_json::{Value as Schema, json};
 
 /// The schema (2020-12) of a study: fields, types, and which of them exclude each other. What depends on the case, its
 /// parameters and the headings of its tables, is open.
-#[must_use]
 pub fn schema() -> Schema {
     let settings = SchemaSettings::draft2020_12().with(|settings| settings.inline_subschemas = true);
     let mut schema = Schema::from(settings.into_generator().into_root_schema_for::<StudyText>());

@@ -13,7 +13,6 @@ use toml::Table;
 const KEYS: [&str; 2] = ["study", "checks"];
 
 /// Whether a file describes a study: it has the key `study`, or one that only studies have.
-#[must_use]
 pub fn is_study(path: &Path) -> bool {
     read_text(path, WRITTEN_BY_HAND).is_ok_and(|text| describes_study(&text))
 }
@@ -74,7 +73,6 @@ impl Suite {
     }
 
     /// Studies of the suite in the order of their files.
-    #[must_use]
     pub fn studies(&self) -> &[Study] {
         &self.studies
     }

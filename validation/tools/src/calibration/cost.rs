@@ -26,7 +26,6 @@ pub struct EvaluationCost {
 
 impl EvaluationCost {
     /// Cost at the start and at the dearest corner; none for a plan of choices, and none where the start is refused.
-    #[must_use]
     pub fn of(plan: &CalibrationPlan, registry: Registry) -> Option<Self> {
         let hours = |point: &[f64]| -> Option<f64> {
             let values = plan.values(point);
@@ -60,7 +59,6 @@ impl EvaluationCost {
     }
 
     /// Largest cost of a simulation that a search accepts unless the user gives another limit `[h]`.
-    #[must_use]
     pub fn limit(&self) -> f64 {
         (DEAREST * self.cheapest).max(ALWAYS_ALLOWED)
     }

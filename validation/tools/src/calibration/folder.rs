@@ -50,13 +50,11 @@ impl CalibrationFolder {
     }
 
     /// Path of the folder.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.folder
     }
 
     /// Folder of the evaluations.
-    #[must_use]
     pub fn evaluations(&self) -> PathBuf {
         self.folder.join("evaluations")
     }

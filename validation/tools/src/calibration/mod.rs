@@ -209,7 +209,6 @@ fn compare_at(
 }
 
 /// JSON Schema of a plan.
-#[must_use]
 pub fn schema() -> &'static serde_json::Value {
     bagnold_solver::parameter::schema_of::<text::CalibrationText>()
 }

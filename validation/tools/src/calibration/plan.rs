@@ -139,14 +139,12 @@ pub struct CalibrationPlan {
 }
 
 /// Points that a search and its region usually need, from the studies of exact films of one to three parameters.
-#[must_use]
 pub fn usual_search(parameters: usize, starts: usize, region_evaluations: usize) -> usize {
     starts + region_evaluations / 2 + 4 * parameters * (parameters + 1)
 }
 
 impl CalibrationPlan {
     /// The settings of a block's case at a point of physical values.
-    #[must_use]
     pub fn settings(&self, block: &DataBlock, values: &[f64]) -> Vec<String> {
         let path = |paths: &Paths| paths.in_case(&block.request.case).map(str::to_owned);
         self.parameters
@@ -159,13 +157,11 @@ impl CalibrationPlan {
     }
 
     /// Physical values of a point of the unit cube.
-    #[must_use]
     pub fn values(&self, point: &[f64]) -> Vec<f64> {
         self.parameters.iter().zip(point).map(|(parameter, &u)| parameter.bounds.value(u)).collect()
     }
 
     /// Simulations that a calibration of as many parameters usually needs; 0 of choices, which are all queued at once.
-    #[must_use]
     pub fn usual_evaluations(&self) -> usize {
         let count = self.parameters.len();
         if !self.choices.is_empty() {
@@ -185,7 +181,6 @@ impl CalibrationPlan {
     }
 
     /// The start in the unit cube.
-    #[must_use]
     pub fn start(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.bounds.coordinate(parameter.start).clamp(0.0, 1.0)).collect()
     }
@@ -239,7 +234,6 @@ impl CalibrationPlan {
 
 impl Choice {
     /// The settings of a case.
-    #[must_use]
     pub fn in_case(&self, case: &str) -> Vec<String> {
         self.set.get(case).cloned().unwrap_or_default()
     }

@@ -80,7 +80,6 @@ impl CalibrationResult {
 
 impl ParameterEstimate {
     /// The values that agree with the data at 95 %, as intervals in rising order; none with too few evaluations.
-    #[must_use]
     pub fn intervals(&self) -> Vec<(f64, f64)> {
         let Some((low, high)) = self.interval else { return Vec::new() };
         let inner = self.gaps.iter().flat_map(|gap| [gap.0, gap.1]);
@@ -89,7 +88,6 @@ impl ParameterEstimate {
     }
 
     /// The intervals in words; `digits` writes a number.
-    #[must_use]
     pub fn intervals_in_words(&self, digits: fn(f64) -> String) -> String {
         let intervals = self.intervals();
         let part = |(place, (low, high)): (usize, &(f64, f64))| {
@@ -103,7 +101,6 @@ impl ParameterEstimate {
     }
 
     /// Share of the range that agrees with the data, on the scale of the parameter `[-]`; 1 without an interval.
-    #[must_use]
     pub fn share(&self) -> f64 {
         let scaled = |value: f64| if self.logarithmic { libm::log(value) } else { value };
         let width = |(low, high): (f64, f64)| scaled(high) - scaled(low);
@@ -216,14 +213,12 @@ pub struct CalibrationResult {
 }
 
 /// Root mean square of weighted residuals `[-]`; none without data.
-#[must_use]
 pub fn weighted_error(data: &[DatumComparison]) -> Option<f64> {
     let sum: f64 = data.iter().map(|datum| datum.residual * datum.residual).sum();
     (!data.is_empty()).then(|| (sum / data.len() as f64).sqrt())
 }
 
 /// Root mean square of (model − datum)/datum `[-]`; none without data or where a datum is zero.
-#[must_use]
 pub(super) fn relative_error(data: &[DatumComparison]) -> Option<f64> {
     let sum: f64 = data.iter().map(|datum| ((datum.model - datum.datum) / datum.datum).powi(2)).sum();
     Some((sum / data.len() as f64).sqrt()).filter(|error| error.is_finite())

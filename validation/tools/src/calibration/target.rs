@@ -140,7 +140,6 @@ impl Target {
     }
 
     /// The same metric of another variant.
-    #[must_use]
     pub(super) fn with_variant(&self, change: impl FnOnce(&str) -> String) -> Self {
         let mut changed = self.clone();
         if let Self::Metric { variant: Some(variant), .. } = &mut changed {
@@ -150,13 +149,11 @@ impl Target {
     }
 
     /// Location of the datum in a profile.
-    #[must_use]
     pub(super) fn place(&self) -> Option<ProfileLocation> {
         if let Self::Profile(location) = self { Some(location.clone()) } else { None }
     }
 
     /// Name for tables and figures.
-    #[must_use]
     pub(super) fn label(&self) -> String {
         match self {
             Self::Metric { name, variant: Some(variant) } if !variant.is_empty() => format!("{name} {variant}"),
@@ -168,7 +165,6 @@ impl Target {
 
 impl Datum {
     /// (model − datum)/σ, or the same of logarithms `[-]`.
-    #[must_use]
     pub(super) fn residual(&self, predicted: f64) -> f64 {
         match self.uncertainty {
             DatumUncertainty::Absolute(sigma) => (predicted - self.value) / sigma,
@@ -183,7 +179,6 @@ impl Datum {
     }
 
     /// The value that has a residual.
-    #[must_use]
     pub(super) fn of_residual(&self, residual: f64) -> f64 {
         match self.uncertainty {
             DatumUncertainty::Absolute(sigma) => self.value + sigma * residual,
@@ -192,7 +187,6 @@ impl Datum {
     }
 
     /// The value one standard deviation below and above.
-    #[must_use]
     pub(super) fn band(&self) -> (f64, f64) {
         match self.uncertainty {
             DatumUncertainty::Absolute(sigma) => (self.value - sigma, self.value + sigma),

@@ -25,7 +25,6 @@ pub struct Difference {
 
 /// All numbers of some folders, the largest difference in tolerances first, then those that not all folders have, in the
 /// order of the first folder.
-#[must_use]
 pub fn differences(all: &[Results]) -> Vec<Difference> {
     let mut seen = BTreeSet::new();
     let mut differences: Vec<Difference> = all
@@ -51,7 +50,6 @@ pub fn differences(all: &[Results]) -> Vec<Difference> {
 impl Difference {
     /// Change of the number in a folder from the first folder that has a value, absolute in its unit and relative to that value;
     /// the latter only where the value is not zero. None where nothing changed.
-    #[must_use]
     pub fn change(&self, folder: usize) -> Option<(f64, Option<f64>)> {
         let first = self.entries.iter().flatten().find_map(|entry| entry.value)?;
         let change = self.entries.get(folder)?.as_ref()?.value? - first;
@@ -59,7 +57,6 @@ impl Difference {
     }
 
     /// The same in words, such as `+0.12 (+3.4 %)`.
-    #[must_use]
     pub fn change_in_words(&self, folder: usize) -> Option<String> {
         let signed = |value: f64| format!("{}{}", if value > 0.0 { "+" } else { "" }, two_digits(value));
         let (change, relative) = self.change(folder)?;

@@ -23,7 +23,6 @@ pub struct ChangedParameter {
 }
 
 /// The parameters of each case that two folders have at least and that are not the same in all of them.
-#[must_use]
 pub fn changed(all: &[Results]) -> Vec<ChangedParameter> {
     let cases: BTreeSet<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
     let own = |results: &Results, case: &str| Some(leaves(results.cases.get(case)?.parameters.as_ref()?));

@@ -65,7 +65,6 @@ impl Results {
     }
 
     /// Number of gates that another folder judges by another limit.
-    #[must_use]
     pub fn moved_limits(&self, other: &Self) -> usize {
         self.moved_by_case(other).map(|(_, _, moved)| moved).sum()
     }

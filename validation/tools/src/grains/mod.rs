@@ -25,7 +25,6 @@ const WINDOWS: usize = 5;
 const BINS: f64 = 2.0;
 
 /// Schema of a plan.
-#[must_use]
 pub fn schema() -> &'static serde_json::Value {
     bagnold_solver::parameter::schema_of::<GrainPlan>()
 }

@@ -52,7 +52,6 @@ fn points(plan: &GrainPlan, runs: &[RunFields]) -> String {
 }
 
 /// Two lines for each run: its point, and the checks.
-#[must_use]
 pub fn summary(runs: &[RunFields]) -> String {
     let line = |run: &RunFields| {
         let parts = ["I", "μ", "φ"].iter().zip(POINT.map(|k| run.core[k]));

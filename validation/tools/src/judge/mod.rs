@@ -68,7 +68,6 @@ pub struct ObservedOrder {
 
 impl ObservedOrder {
     /// Observed order ln(e_coarse/e_fine)/ln r `[-]`; none where the error changes its sign.
-    #[must_use]
     pub fn order(&self) -> Option<f64> {
         let reduction = self.coarse / self.fine.value;
         (reduction > 0.0).then(|| reduction.ln() / self.ratio.ln())
@@ -101,7 +100,6 @@ pub struct CodeComparison {
 
 impl JudgedCode {
     /// Its gates; for those that are not judged nothing was given.
-    #[must_use]
     pub fn tally(&self) -> Tally {
         let gated = self.metrics.iter().filter(|one| one.own.verdict() != Verdict::Observed);
         let severity = |one: &MetricComparison| match one.verdict() {

@@ -149,7 +149,6 @@ impl Submission {
     }
 
     /// Files that it names, as it names them.
-    #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
         let of_run = |run: &ForeignRun| {
             let tables = [&run.series, &run.profile].map(|table| table.as_ref().map(|table| table.file.clone()));

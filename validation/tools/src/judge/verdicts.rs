@@ -17,7 +17,6 @@ pub struct MetricComparison {
 
 impl MetricComparison {
     /// Verdict on the external code; none without a value from it.
-    #[must_use]
     pub fn verdict(&self) -> Option<Verdict> {
         self.foreign.as_ref().map(Metric::verdict)
     }

@@ -109,25 +109,21 @@ pub fn seeds(league: &Path) -> Result<(Vec<u64>, Vec<u64>), ToolError> {
 
 impl BlindComparison {
     /// Mean of the grains over the seeds; none without runs.
-    #[must_use]
     pub fn mean(&self) -> Option<f64> {
         (!self.measured.is_empty()).then(|| self.measured.iter().sum::<f64>() / self.measured.len() as f64)
     }
 
     /// Standard deviation of the grains between seeds; none of fewer than two.
-    #[must_use]
     pub fn scatter(&self) -> Option<f64> {
         scatter(self.measured.iter().copied(), 2).map(|(_, scatter)| scatter)
     }
 
     /// Error E: prediction minus mean of the grains.
-    #[must_use]
     pub fn error(&self) -> Option<f64> {
         self.mean().map(|mean| self.value - mean)
     }
 
     /// Standard uncertainty of E as far as it is known, and whether all of it is: one seed tells no scatter.
-    #[must_use]
     pub fn uncertainty(&self) -> (f64, bool) {
         let scatter = || self.scatter().map(|scatter| scatter / (self.measured.len() as f64).sqrt());
         let of_mean = self.u_measured.or_else(scatter);
@@ -136,7 +132,6 @@ impl BlindComparison {
     }
 
     /// Verdict on the error.
-    #[must_use]
     pub fn verdict(&self) -> &'static str {
         let (u_val, is_known) = self.uncertainty();
         match self.error() {
@@ -162,7 +157,6 @@ pub const HEADINGS: [&str; 9] = [
 ];
 
 /// The comparisons as a table: a row for each quantity, with the local law first and the nonlocal law's error last.
-#[must_use]
 pub fn table(all: &[BlindComparison]) -> Vec<[String; 9]> {
     let share = |part: f64, whole: f64| format!("{} %", two_digits(100.0 * part / whole));
     let place = |one: &BlindComparison| {

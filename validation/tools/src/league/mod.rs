@@ -94,13 +94,11 @@ pub fn read(files: &[PathBuf], registry: Registry) -> Result<Vec<CaseSubmissions
 pub type Groups = (Vec<Box<dyn PreparedCase>>, Vec<Vec<crate::judge::CodeResults>>);
 
 /// Splits groups into what is simulated and what is judged.
-#[must_use]
 pub fn split(groups: Vec<CaseSubmissions>) -> Groups {
     groups.into_iter().map(|group| (group.prepared, group.entries)).unzip()
 }
 
 /// Puts judged groups beside each other.
-#[must_use]
 pub fn league(groups: &[CodeComparison]) -> League {
     let mut league = League::default();
     // rows of the case's own parameters come first, and name the others'
@@ -148,7 +146,6 @@ fn enter(rows: &mut Vec<LeagueRow>, case: &str, code: usize, submission: &Submis
 
 impl League {
     /// Gates of a code and a case; none without a submission.
-    #[must_use]
     pub fn tally(&self, code: usize, case: usize) -> Option<Tally> {
         let own = self.judged.iter().filter(|(own, of, _)| (*own, *of) == (code, case));
         own.map(|(_, _, judged)| judged.tally()).reduce(|sum, more| Tally([sum.0, more.0].concat()))
@@ -157,20 +154,17 @@ impl League {
 
 impl LeagueRow {
     /// Whether it tells physics: a limit or a reference, or several codes, and no account of a run's own.
-    #[must_use]
     pub fn is_told(&self) -> bool {
         let has_reference = self.own.gate.is_some() || self.own.reference.is_some() || self.values.len() > 1;
         has_reference && self.own.kind != MetricKind::Bookkeeping
     }
 
     /// Mean of the codes of our law and ours, and their standard deviation; none of fewer than three.
-    #[must_use]
     pub fn of_one_law(&self) -> Option<(f64, f64)> {
         scatter(self.of(LawOrigin::Same).chain([self.own.value]), FEWEST)
     }
 
     /// Mean of the codes of grains, and their standard deviation; none of fewer than two.
-    #[must_use]
     pub fn of_grains(&self) -> Option<(f64, f64)> {
         scatter(self.of(LawOrigin::Grains), 2)
     }

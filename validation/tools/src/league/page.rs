@@ -41,7 +41,6 @@ pub const ORDER_HEADINGS: [&str; 8] =
     ["code", "case", "metric", "run", "coarse mesh", "fine mesh", "ratio of cells", "observed order"];
 
 /// Errors of codes on two meshes with the observed order, a row each.
-#[must_use]
 pub fn orders(league: &League) -> Vec<[String; 8]> {
     let mut rows = Vec::new();
     for (code, case, judged) in &league.judged {

@@ -12,7 +12,6 @@ const WIDE: f64 = 2.0;
 
 /// A row for each gated quantity of at least three codes of one law. The width is half that of an interval, and for a bound its
 /// distance from the mean of the codes. The reason of the gate stands beside a width that is not one to two deviations.
-#[must_use]
 pub fn widths(league: &League) -> Vec<[String; 8]> {
     let row = |row: &super::LeagueRow| {
         let (gate, (mean, deviation)) = (row.own.gate.as_ref()?, row.of_one_law()?);

@@ -64,25 +64,21 @@ impl SweepFolder {
     }
 
     /// Path of the folder.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.folder
     }
 
     /// Manifest of the runs.
-    #[must_use]
     pub fn manifest(&self) -> &Manifest {
         &self.manifest
     }
 
     /// Folder of a run.
-    #[must_use]
     pub fn of(&self, entry: &SweepRun) -> PathBuf {
         self.folder.join("runs").join(&entry.folder)
     }
 
     /// The record of a run that is done or has failed.
-    #[must_use]
     pub fn record(&self, entry: &SweepRun) -> Option<EvaluationRecord> {
         match &entry.refusal {
             Some(reason) => Some(EvaluationRecord::failed("", &entry.case, reason)),
@@ -91,7 +87,6 @@ impl SweepFolder {
     }
 
     /// Runs without a record, the longest first; of equal ones the first first.
-    #[must_use]
     pub fn missing(&self) -> Vec<&SweepRun> {
         let mut missing: Vec<&SweepRun> =
             self.manifest.entries.iter().filter(|entry| self.record(entry).is_none()).collect();
@@ -100,7 +95,6 @@ impl SweepFolder {
     }
 
     /// Numbers of runs that are done, failed and missing.
-    #[must_use]
     pub fn tally(&self) -> SweepProgress {
         let mut tally = SweepProgress::default();
         for entry in &self.manifest.entries {

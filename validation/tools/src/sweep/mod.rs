@@ -25,7 +25,6 @@ pub use manifest::{Manifest, SweepRun};
 pub use plan::SweepPlan;
 
 /// JSON Schema of a plan.
-#[must_use]
 pub fn schema() -> &'static serde_json::Value {
     bagnold_solver::parameter::schema_of::<plan::SweepText>()
 }

@@ -381,7 +381,6 @@ impl BedLoadFlow {
     }
 
     /// The stream of the 1-D layer.
-    #[must_use]
     pub fn stream(&self) -> Stream {
         let (bed_depth, held_depth, drag_diameter) = if self.formulation.is_continuum() {
             (self.continuum.bed_depth, self.continuum.held_depth, self.continuum.drag_diameter)

@@ -121,13 +121,11 @@ impl BedLoadObservation {
     }
 
     /// Drag per volume over height: (z `[m]`, `[N/m³]`).
-    #[must_use]
     pub fn drag_profile(&self) -> Vec<(f64, f64)> {
         self.per_volume(|carried| carried.force)
     }
 
     /// Solid fraction over height: (z `[m]`, φ `[-]`).
-    #[must_use]
     pub fn solid_fraction(&self) -> Vec<(f64, f64)> {
         self.per_volume(|carried| carried.volume)
     }

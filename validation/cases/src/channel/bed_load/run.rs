@@ -110,7 +110,6 @@ impl BedLoadFlow {
     }
 
     /// The logarithmic law of a rough bed of such grains, from which the water starts and by which velocities are scaled.
-    #[must_use]
     pub fn clear_water(&self) -> RoughChannel {
         let is_continuum = self.formulation.is_continuum();
         RoughChannel {

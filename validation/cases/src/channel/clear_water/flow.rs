@@ -131,7 +131,6 @@ impl Flow for ClearWaterFlow {
 
 impl ClearWaterFlow {
     /// The flow that it is compared with.
-    #[must_use]
     pub fn reference(&self) -> RoughChannel {
         RoughChannel {
             depth: self.water.depth,

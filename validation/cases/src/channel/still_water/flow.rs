@@ -65,7 +65,6 @@ impl Flow for StillWaterFlow {
 
 impl StillWaterFlow {
     /// Whether it is run to show that it fails.
-    #[must_use]
     pub fn is_unstabilised(&self) -> bool {
         self.water.numerics.stabilisation == 0.0
     }

@@ -78,20 +78,17 @@ impl Flow for WaterFilmFlow {
 
 impl WaterFilmFlow {
     /// Kinematic viscosity ν = g i h²/(2 u) `[m²/s]`.
-    #[must_use]
     pub fn kinematic_viscosity(&self) -> f64 {
         let Water { depth, gravity, .. } = self.water;
         gravity * self.slope * depth * depth / (2.0 * self.surface_velocity)
     }
 
     /// Relaxation time of the slowest mode 4h²/(π²ν) `[s]`.
-    #[must_use]
     pub fn relaxation_time(&self) -> f64 {
         4.0 * self.water.depth * self.water.depth / (std::f64::consts::PI.powi(2) * self.kinematic_viscosity())
     }
 
     /// The exact film of a depth `[m]`.
-    #[must_use]
     pub fn exact(&self, depth: f64) -> NewtonianFilm {
         let incline = Incline {
             layer_height: depth,

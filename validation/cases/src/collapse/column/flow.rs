@@ -183,14 +183,12 @@ impl<const D: usize> Flow for ColumnFlow<D> {
 
 impl<const D: usize> ColumnFlow<D> {
     /// What it is made of.
-    #[must_use]
     pub fn made_of(&self) -> Material {
         let Self { grains, altered, material, .. } = self;
         Material { grains: *grains, altered: *altered, value: altered.value_in(material) }
     }
 
     /// Density in bulk `[kg/m³]`.
-    #[must_use]
     pub fn density(&self) -> f64 {
         self.bulk.density(&self.material)
     }
@@ -206,31 +204,26 @@ impl<const D: usize> ColumnFlow<D> {
     }
 
     /// Particle spacing `[m]`.
-    #[must_use]
     pub fn spacing(&self) -> f64 {
         self.half_width / self.resolution as f64
     }
 
     /// Initial height over the half width as the particles give it `[-]`: a whole number of rows.
-    #[must_use]
     pub fn initial_height(&self) -> f64 {
         self.rows() as f64 / self.resolution as f64
     }
 
     /// √(h_0/g) `[s]`.
-    #[must_use]
     pub fn time_scale(&self) -> f64 {
         (self.initial_height() * self.half_width / self.gravity).sqrt()
     }
 
     /// Whether there are enough rows over the height for a gate.
-    #[must_use]
     pub fn is_resolved(&self) -> bool {
         self.rows() >= 20
     }
 
     /// Steps that the regularised law would need for a time `[s]` with an explicit viscous step (29); 0 without it.
-    #[must_use]
     pub fn explicit_viscous_steps(&self, time: f64) -> f64 {
         if !self.is_regularised() {
             return 0.0;
@@ -243,37 +236,31 @@ impl<const D: usize> ColumnFlow<D> {
 
     /// Whether its law is the one that the published grains are given: with another one their experiments are shown, and
     /// do not gate.
-    #[must_use]
     pub fn has_published_law(&self) -> bool {
         matches!(self.material, Rheology::MuI(_)) && !self.is_of_own_grains()
     }
 
     /// Whether its grains are published ones without a change.
-    #[must_use]
     pub fn is_published(&self) -> bool {
         self.altered == Alteration::Nothing && self.has_published_law()
     }
 
     /// Whether the grains are a user's own: those of a published law with another law, whatever that is.
-    #[must_use]
     pub fn is_of_own_grains(&self) -> bool {
         self.made_of().is_own(&self.material)
     }
 
     /// Whether its law is (35), which never comes to rest.
-    #[must_use]
     pub fn is_regularised(&self) -> bool {
         matches!(self.material, Rheology::RegularisedMuI(_))
     }
 
     /// Whether eddies add to the viscosity.
-    #[must_use]
     pub fn has_eddies(&self) -> bool {
         self.numerics.smagorinsky_constant > 0.0
     }
 
     /// Whether density and pressure are coupled by (27).
-    #[must_use]
     pub fn is_coupled(&self) -> bool {
         self.numerics.density_coupling > 0.0
     }
@@ -332,7 +319,6 @@ impl<const D: usize> ColumnFlow<D> {
 
     /// Elastic over potential energy of the start `[-]`: under hydrostatic pressure p²/(2K) has the mean ρ0 g h_0/(6·50),
     /// the potential energy above the bed ρ0 g h_0/2.
-    #[must_use]
     pub fn elastic_share(&self) -> f64 {
         1.0 / (3.0 * STIFFNESS)
     }

@@ -74,7 +74,6 @@ pub struct Material {
 
 impl ExperimentGrains {
     /// Name in files and variants.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Sand => "sand",
@@ -106,31 +105,26 @@ impl Material {
     pub const BARS: Self = Self::published(ExperimentGrains::Bars);
 
     /// Grains as published.
-    #[must_use]
     pub const fn published(grains: ExperimentGrains) -> Self {
         Self { grains, altered: Alteration::Nothing, value: 0.0 }
     }
 
     /// Whether they are as published.
-    #[must_use]
     pub fn is_published(self) -> bool {
         self.altered == Alteration::Nothing
     }
 
     /// Whether a law is a user's own, in the place of the published one; grains that the case itself alters are none.
-    #[must_use]
     pub fn is_own(self, law: &Rheology) -> bool {
         self.is_published() && *law != Rheology::MuI(self.grains.as_published().law)
     }
 
     /// What a legend calls them where they have this law: one of a user's own makes grains of his own.
-    #[must_use]
     pub fn title_with(self, law: &Rheology) -> String {
         if self.is_own(law) { format!("own grains as {}", self.grains.name()) } else { self.title() }
     }
 
     /// What a legend calls them.
-    #[must_use]
     pub fn title(self) -> String {
         let grains = match (self.grains, self.is_published()) {
             (ExperimentGrains::Sand, true) => "sand of Table 2",

@@ -105,7 +105,6 @@ impl Surveyor {
     }
 
     /// Measures the deposit and ends the survey.
-    #[must_use]
     pub(crate) fn finish<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {
         let r = self.half_width;
         self.collapse.deposit = self.thickness(end);
@@ -208,7 +207,6 @@ impl Collapse {
 
     /// Front x_f/r_0 of the deposit `[-]`: of its particles, else where its profile falls below [`FRONT_THICKNESS`], else the
     /// last of the series.
-    #[must_use]
     pub fn deposit_front(&self) -> f64 {
         match self.deposit_fronts {
             Some(fronts) => fronts.thin,
@@ -218,21 +216,18 @@ impl Collapse {
     }
 
     /// (x_f − r_0)/r_0 of the deposit `[-]`.
-    #[must_use]
     pub fn run_out(&self) -> f64 {
         self.deposit_front() - 1.0
     }
 
     /// The same with the front at 0.05 r_0 by thickness in bins, which a row of particles has from 20 over r_0 on `[-]`;
     /// not a number without a deposit, as where another code gave its front alone.
-    #[must_use]
     pub fn run_out_of_rows(&self) -> f64 {
         if self.deposit.is_empty() { f64::NAN } else { end_of_profile(&self.deposit, ROW_THICKNESS) - 1.0 }
     }
 
     /// Standard uncertainty of a front over r_0 from the spacing, where no study of the resolution tells it `[-]`: the
     /// thickness at the toe is known to a share of a row.
-    #[must_use]
     pub fn front_uncertainty(&self) -> Option<f64> {
         self.deposit_fronts.map(Fronts::uncertainty)
     }
@@ -244,13 +239,11 @@ impl Collapse {
     }
 
     /// Thickness of the deposit at the symmetry plane, by volume, over r_0 `[-]`.
-    #[must_use]
     pub fn final_height(&self) -> f64 {
         self.deposit.first().map_or(f64::NAN, |bin| bin.1)
     }
 
     /// Kinetic energy over the potential energy released so far `[-]`.
-    #[must_use]
     pub fn agitation(&self) -> f64 {
         match (self.kinetic_energy.last(), self.potential_energy.first(), self.potential_energy.last()) {
             (Some(kinetic), Some(first), Some(last)) if first > last => kinetic / (first - last),
@@ -259,13 +252,11 @@ impl Collapse {
     }
 
     /// Time at which the grains had come to rest `[s]`; infinite where they had not when the run ended.
-    #[must_use]
     pub fn rest_time(&self) -> f64 {
         self.time.last().copied().filter(|_| self.agitation() < AT_REST).unwrap_or(f64::INFINITY)
     }
 
     /// Time at which the front of a row's thickness has covered 99 % of its way `[s]`, linear between two observations.
-    #[must_use]
     pub fn stopping_time(&self) -> f64 {
         let front = &self.rows_front;
         let (Some(&start), Some(&end)) = (front.first(), front.last()) else { return f64::NAN };
@@ -282,13 +273,11 @@ impl Collapse {
     }
 
     /// Inclination of the deposit's surface `[°]`: a line through the thickness over 20–80 % of the front's distance.
-    #[must_use]
     pub fn slope_angle(&self) -> f64 {
         linear_fit(&self.flank()).map_or(f64::NAN, |fit| libm::atan(-fit.slope).to_degrees())
     }
 
     /// Share of the variance of the flank's thickness that a straight line explains `[-]`: 1 for a cone or a wedge.
-    #[must_use]
     pub fn flank_r_squared(&self) -> f64 {
         linear_fit(&self.flank()).map_or(f64::NAN, |line| line.r_squared)
     }

@@ -40,7 +40,6 @@ impl Fronts {
 
     /// Standard uncertainty of a front from the spacing, where no study of the resolution tells it `[-]`: the thickness at the
     /// toe is known to a share of a row.
-    #[must_use]
     pub fn uncertainty(self) -> f64 {
         KNOWN_SHARE_OF_ROW * self.length_of_row
     }

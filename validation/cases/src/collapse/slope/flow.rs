@@ -200,25 +200,21 @@ impl SlopeFlow {
     }
 
     /// Particle spacing `[m]`.
-    #[must_use]
     pub fn spacing(&self) -> f64 {
         self.reservoir_length / self.resolution as f64
     }
 
     /// Whether there are enough rows over the height for a gate.
-    #[must_use]
     pub fn is_resolved(&self) -> bool {
         self.rows() >= 20
     }
 
     /// Whether its law is (35), which never comes to rest.
-    #[must_use]
     pub fn is_regularised(&self) -> bool {
         matches!(self.material, Rheology::RegularisedMuI(_))
     }
 
     /// Density in bulk `[kg/m³]`.
-    #[must_use]
     pub fn density(&self) -> f64 {
         self.bulk.density(&self.material)
     }
@@ -265,7 +261,6 @@ impl SlopeFlow {
 
 impl SlopeCollapse {
     /// Thickness over r_0 at a place x/r_0 over time `[-]`, linear between the centres of two bins.
-    #[must_use]
     pub fn thickness_at(&self, place: f64) -> Vec<f64> {
         let position = place / crate::collapse::BIN_WIDTH - 0.5;
         let bin = position.max(0.0) as usize;

@@ -186,7 +186,6 @@ impl Flow for BagnoldFlow {
 
 impl BagnoldFlow {
     /// What becomes of the layer.
-    #[must_use]
     pub fn fate(&self) -> Fate {
         let profile = self.profile();
         match profile.inertial_number() {
@@ -197,13 +196,11 @@ impl BagnoldFlow {
     }
 
     /// Whether its law is (35), which is not the exact one.
-    #[must_use]
     pub fn is_regularised(&self) -> bool {
         matches!(self.material, Rheology::RegularisedMuI(_))
     }
 
     /// Whether it has the operators of the paper, whose result is what they do.
-    #[must_use]
     pub fn is_compared(&self) -> bool {
         self.layer.numerics.pairwise_operator().is_some()
     }
@@ -215,13 +212,11 @@ impl BagnoldFlow {
     }
 
     /// The exact steady profile at the run's slope angle.
-    #[must_use]
     pub fn profile(&self) -> BagnoldProfile {
         self.profile_at(self.slope_angle)
     }
 
     /// The exact steady profile that the run started with.
-    #[must_use]
     pub fn start_profile(&self) -> BagnoldProfile {
         let is_elsewhere = self.start == LayerStart::Profile && self.fate() != Fate::Steady;
         self.profile_at(if is_elsewhere { self.start_angle } else { self.slope_angle })
@@ -252,7 +247,6 @@ impl BagnoldFlow {
     }
 
     /// 2ȳ/h `[-]` of the layer with ρ = ρ0 exp(x (1 − y/h)), x = ρ0 g h cosθ/K: a little below 1.
-    #[must_use]
     pub fn exact_relative_height(&self) -> f64 {
         let density = self.density();
         let weight = density * self.layer.gravity * self.layer.layer_height * libm::cos(self.slope_angle.to_radians());
@@ -265,7 +259,6 @@ impl BagnoldFlow {
     }
 
     /// Sound speed `[m/s]`.
-    #[must_use]
     pub fn sound_speed(&self) -> f64 {
         (self.bulk_modulus() / self.density()).sqrt()
     }

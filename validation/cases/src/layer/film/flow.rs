@@ -107,14 +107,12 @@ impl Flow for FilmFlow {
 
 impl FilmFlow {
     /// The film's geometry.
-    #[must_use]
     pub fn incline(&self) -> Incline {
         let PeriodicLayer { layer_height, gravity, .. } = self.layer;
         Incline { layer_height, inclination: self.slope_angle.to_radians(), gravity, density: self.density }
     }
 
     /// Its steady flow.
-    #[must_use]
     pub fn film(&self) -> SteadyFilm {
         let numerics = &self.layer.numerics;
         let spacing = self.layer.layer_height / self.layer.resolution as f64;
@@ -127,19 +125,16 @@ impl FilmFlow {
     }
 
     /// Whether it is the Newtonian film, which is studied for its convergence and its numerics.
-    #[must_use]
     pub fn is_newtonian(&self) -> bool {
         matches!(self.material, Rheology::Newtonian(_)) && !self.has_eddies()
     }
 
     /// Whether it has the operators and walls of the collapse paper, which are compared with the default.
-    #[must_use]
     pub fn is_compared(&self) -> bool {
         self.layer.numerics.pairwise_operator().is_some()
     }
 
     /// Whether its neighbour lists have a wider skin than the default, on which no result may depend.
-    #[must_use]
     pub fn has_wide_skin(&self) -> bool {
         self.layer.numerics.verlet_skin > Numerics::default().verlet_skin
     }
@@ -162,7 +157,6 @@ impl FilmFlow {
     }
 
     /// Whether eddies add to the viscosity.
-    #[must_use]
     pub fn has_eddies(&self) -> bool {
         self.layer.numerics.smagorinsky_constant > 0.0
     }
@@ -170,7 +164,6 @@ impl FilmFlow {
     /// Exact velocity `[m/s]` of the Newtonian film as a weakly compressible fluid, whose density grows with the
     /// pressure p = K (exp(ρ0 g cosθ (h − y)/K) − 1): η du/dy = p tanθ. It exceeds the incompressible one by 0.7 % of
     /// the surface velocity at K = 50 ρ0 g h. None for the other fluids.
-    #[must_use]
     pub fn weakly_compressible_velocity(&self, height: f64) -> Option<f64> {
         let Rheology::Newtonian(law) = self.material else { return None };
         if self.has_eddies() {

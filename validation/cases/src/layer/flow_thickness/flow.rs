@@ -164,7 +164,6 @@ impl Flow for FlowThicknessFlow {
 
 impl FlowThicknessFlow {
     /// Whether the slope is sought at which the layer stops.
-    #[must_use]
     pub fn is_sought(&self) -> bool {
         self.flowing_angle > 0.0
     }

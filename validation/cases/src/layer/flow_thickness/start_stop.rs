@@ -63,7 +63,6 @@ pub struct StartStop {
 impl StartStop {
     /// Steepest slope at which the layer stopped and gentlest at which it flowed `[°]`; none where the ends of the
     /// search do not bracket the change, or where a trial left open which it is.
-    #[must_use]
     pub fn bracket(&self) -> Option<(f64, f64)> {
         let angles = |fate: LayerFate| self.trials.iter().filter(move |t| t.fate == fate).map(|t| t.slope_angle);
         let (steepest, gentlest) =

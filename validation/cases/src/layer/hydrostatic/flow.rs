@@ -71,19 +71,16 @@ impl HydrostaticFlow {
     }
 
     /// Density in bulk `[kg/m³]`.
-    #[must_use]
     pub fn density(&self) -> f64 {
         self.bulk.density(&self.material)
     }
 
     /// Whether density and pressure are coupled by (27).
-    #[must_use]
     pub fn is_coupled(&self) -> bool {
         self.layer.numerics.density_coupling > 0.0
     }
 
     /// ρ0 g H² times the length of the layer `[J/m]`.
-    #[must_use]
     pub fn energy_scale(&self) -> f64 {
         let layer = self.layer();
         let PeriodicLayer { layer_height, gravity, columns, .. } = layer.layer;
@@ -91,13 +88,11 @@ impl HydrostaticFlow {
     }
 
     /// Height of the layer `[m]`.
-    #[must_use]
     pub fn height(&self) -> f64 {
         self.layer.layer_height
     }
 
     /// Exact pressure `[Pa]` at a height `[m]`.
-    #[must_use]
     pub fn pressure(&self, y: f64) -> f64 {
         self.layer().hydrostatic_pressure(y)
     }

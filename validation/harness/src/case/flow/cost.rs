@@ -30,7 +30,6 @@ pub struct RunCost {
 
 impl RunCost {
     /// A run of the weakly compressible model in the plane, of so many particles and steps.
-    #[must_use]
     pub fn weakly_compressible(particles: f64, steps: f64) -> Self {
         Self {
             particles,
@@ -42,7 +41,6 @@ impl RunCost {
     }
 
     /// A run of the incompressible model, of so many particles and steps.
-    #[must_use]
     pub fn incompressible(particles: f64, steps: f64) -> Self {
         Self { seconds_per_particle_step: INCOMPRESSIBLE, ..Self::weakly_compressible(particles, steps) }
     }

@@ -79,13 +79,11 @@ pub struct VariedParameter {
 
 impl VariedParameter {
     /// Label of the parameter in variants.
-    #[must_use]
     pub fn label(&self) -> &str {
         self.name.as_deref().unwrap_or_else(|| self.path.rsplit('.').next().unwrap_or_default())
     }
 
     /// The parameter with the values of a tier alone.
-    #[must_use]
     pub fn of_tier(self, tier: Tier) -> Self {
         let values = match tier {
             Tier::Quick => None,
@@ -125,7 +123,6 @@ impl ListedChange {
 
 impl ListOfRuns {
     /// The list of a tier: its variants, and its values of varied parameters.
-    #[must_use]
     pub fn of_tier(mut self, tier: Tier) -> Self {
         let of_tier = |vary: Vec<VariedParameter>| vary.into_iter().map(|varied| varied.of_tier(tier)).collect();
         self.variants.retain(|named| named.tier.is_none_or(|lowest| lowest <= tier));
@@ -193,7 +190,6 @@ impl ListOfRuns {
     }
 
     /// All sets of changes, in the order of the list: one without changes for a list without entries.
-    #[must_use]
     pub fn changes(&self) -> Vec<ListedChange> {
         let unnamed = [NamedVariant { name: String::new(), tier: None, set: Table::new(), vary: Vec::new() }];
         let variants = if self.variants.is_empty() { &unnamed[..] } else { &self.variants };

@@ -175,7 +175,6 @@ impl<F: Flow> RunList<F> {
     }
 
     /// Runs in the order of the list.
-    #[must_use]
     pub fn flows(&self) -> &[F] {
         &self.listed().flows
     }
@@ -272,7 +271,6 @@ impl<F: Flow> RunList<F> {
     ///
     /// # Panics
     /// If the case's own list is malformed, which its tests would find.
-    #[must_use]
     pub fn of_tier(tier: Tier) -> Self {
         let file = TiersFile::of::<F>();
         let mut changes = file.set;

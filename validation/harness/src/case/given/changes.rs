@@ -64,7 +64,6 @@ impl Changes<'_> {
     }
 
     /// The same, with lists empty that a file leaves out.
-    #[must_use]
     pub(in crate::case) fn with_lists(&self, [of_flow, of_runs]: [&[&str]; 2]) -> Self {
         let mut changes = self.clone();
         if let Some((_, fields)) = &mut changes.file {
@@ -247,7 +246,6 @@ pub(in crate::case) fn is_set(settings: &[String], field: &str) -> bool {
 }
 
 /// Place of the setting that a case does not take: it lacks the field, or a study gives it values itself.
-#[must_use]
 pub fn untaken(error: &ParameterError, settings: &[String]) -> Option<usize> {
     let ParameterError::Field(FieldError { field, value, .. }) = error else { return None };
     let is_at_fault = |setting: &String| match field.as_str() {
@@ -413,7 +411,6 @@ fn add_setting(defaults: &Table, settings: &mut Table, argument: &str) -> Result
 }
 
 /// The tables that some `path=value` settings make; those that are no settings are left out.
-#[must_use]
 pub fn table_of_settings(settings: &[String]) -> Table {
     let mut table = Table::new();
     for setting in settings {
@@ -434,7 +431,6 @@ fn value_of(text: &str) -> Value {
 }
 
 /// The dotted paths of all values that are no tables.
-#[must_use]
 pub fn leaves(table: &Table) -> Vec<String> {
     paths(table).into_iter().filter(|path| find(table, path).is_some_and(|value| !value.is_table())).collect()
 }

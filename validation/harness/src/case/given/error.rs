@@ -41,13 +41,11 @@ pub enum ParameterError {
 
 impl ParameterError {
     /// A parameter that breaks a rule: "`field` is `value`, but must be `rule`; `remedy`".
-    #[must_use]
     pub fn field(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
         Self::Field(FieldError::new(field, value, rule, remedy))
     }
 
     /// No case has this name; the error suggests the nearest one.
-    #[must_use]
     pub fn unknown_case(name: &str, nearest: &Option<String>) -> Self {
         let is_file = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
         let meant = did_you_mean(nearest);
@@ -65,13 +63,11 @@ impl ParameterError {
     }
 
     /// The place in a plan of what only a plan's block says: which runs are meant.
-    #[must_use]
     pub fn of_block(self, block: &str) -> Self {
         if self.field_path() == Some("only") { self.within(block) } else { self }
     }
 
     /// The dotted path of the parameter at fault, if the error is about one.
-    #[must_use]
     pub fn field_path(&self) -> Option<&str> {
         match self {
             Self::Field(error) => Some(&error.field),
@@ -80,13 +76,11 @@ impl ParameterError {
     }
 
     /// Whether a `--set` has the wrong form, path or type, whatever the other parameters are.
-    #[must_use]
     pub fn is_of_setting(&self) -> bool {
         matches!(self, Self::Field(FieldError { origin: Some(Origin::Setting(_)), .. }))
     }
 
     /// Says which of the cases of a report refuses a setting.
-    #[must_use]
     pub fn in_case(mut self, case: &str) -> Self {
         if let Self::Field(FieldError { remedy, .. }) = &mut self {
             *remedy = format!("{remedy} (refused by the case {case}; --cases can leave it out)").into();
@@ -95,7 +89,6 @@ impl ParameterError {
     }
 
     /// Says that no case of a report has a field.
-    #[must_use]
     pub fn in_no_case(mut self) -> Self {
         if let Self::Field(FieldError { value, .. }) = &mut self {
             "no case of this report has this field".clone_into(value);
@@ -104,7 +97,6 @@ impl ParameterError {
     }
 
     /// Says in which file the parameter at fault stands, unless that is already known.
-    #[must_use]
     pub fn in_file(mut self, path: &Path) -> Self {
         if let Self::Field(FieldError { origin, .. }) | Self::Changed { origin, .. } = &mut self {
             origin.get_or_insert_with(|| Origin::File(path.to_owned()));
@@ -113,13 +105,11 @@ impl ParameterError {
     }
 
     /// Says in which file the parameter at fault stands, if one gives it.
-    #[must_use]
     pub(in crate::case) fn given_in(self, file: Option<&Path>) -> Self {
         if let Some(file) = file { self.in_file(file) } else { self }
     }
 
     /// Says in which plan it stands, the settings of which are values of the plan.
-    #[must_use]
     pub fn in_plan(mut self, plan: &Path) -> Self {
         match &mut self {
             Self::Field(FieldError { origin, .. }) if matches!(origin, Some(Origin::Setting(_))) => *origin = None,

@@ -129,7 +129,6 @@ impl CaseFile {
     }
 
     /// The text of a complete file: the parameters in the order of their struct, each with its note.
-    #[must_use]
     pub(in crate::case) fn text(case: &str, tier: Tier, parameters: &str, notes: &BTreeMap<String, String>) -> String {
         let mut text = format!("case = \"{case}\"\ntier = \"{tier}\"\n");
         if !parameters.starts_with('[') {

@@ -64,7 +64,6 @@ impl OutputPlan {
     }
 
     /// The same as the table of a case file.
-    #[must_use]
     pub fn text(&self) -> String {
         let fields = if self.fields.is_empty() { String::new() } else { format!("fields = {:?}\n", self.fields) };
         format!("[output]\nevery = {:?}\n{fields}", self.every)

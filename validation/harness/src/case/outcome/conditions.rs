@@ -40,7 +40,6 @@ pub struct Conditions {
 
 impl Condition {
     /// Whether it belongs to the start.
-    #[must_use]
     pub fn is_of_start(&self) -> bool {
         self.kind == START
     }

@@ -43,7 +43,6 @@ pub struct ExternalColumn {
 
 impl ExternalColumn {
     /// A column that a case can use.
-    #[must_use]
     pub const fn new(name: &'static str, unit: &'static str, description: &'static str) -> Self {
         Self { name, unit, description }
     }
@@ -122,7 +121,6 @@ pub struct ExternalResult {
 
 impl ExternalResult {
     /// Whether a metric may be judged: what was given suffices for it in its run, or in any where it is of several.
-    #[must_use]
     pub fn is_measured(&self, metric: &Metric) -> bool {
         let suffices = |names: &[&str]| names.contains(&metric.name.as_str());
         let own: Vec<_> = self.measured.iter().filter(|(variant, _)| metric.variant.includes(variant)).collect();
@@ -163,31 +161,26 @@ impl ExternalData {
     }
 
     /// Whether there is nothing but, perhaps, single numbers.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.pictures.is_empty() && self.series.is_empty() && self.profile.is_empty()
     }
 
     /// A column of the series; empty where it was not given.
-    #[must_use]
     pub fn series(&self, name: &str) -> &[f64] {
         self.series.get(name).map_or(&[], Vec::as_slice)
     }
 
     /// A column of the profile; empty where it was not given.
-    #[must_use]
     pub fn profile(&self, name: &str) -> &[f64] {
         self.profile.get(name).map_or(&[], Vec::as_slice)
     }
 
     /// A column of the series at every `time`; not a number where it was not given.
-    #[must_use]
     pub fn full_series(&self, name: &str) -> Vec<f64> {
         full(self.series(name), self.series("time").len())
     }
 
     /// A column of the profile at every `height`; not a number where it was not given.
-    #[must_use]
     pub fn full_profile(&self, name: &str) -> Vec<f64> {
         full(self.profile(name), self.profile("height").len())
     }
@@ -215,7 +208,6 @@ impl ParticleFrame {
     }
 
     /// A column; empty where it was not given.
-    #[must_use]
     pub fn column(&self, name: &str) -> &[f64] {
         self.columns.get(name).map_or(&[], Vec::as_slice)
     }

@@ -37,13 +37,11 @@ pub struct RunSummary {
 
 impl RunSummary {
     /// Particles × steps `[-]`.
-    #[must_use]
     pub fn particle_steps(&self) -> f64 {
         self.particles as f64 * self.steps as f64
     }
 
     /// Whether the run diverged although its case did not declare it.
-    #[must_use]
     pub fn diverged_unexpectedly(&self) -> bool {
         matches!(self.outcome, Outcome::Diverged { expected: false, .. })
     }
@@ -90,25 +88,21 @@ pub struct CaseResult {
 
 impl CaseResult {
     /// Sum of the runs' wall times `[s]`.
-    #[must_use]
     pub fn wall_seconds(&self) -> f64 {
         self.runs.iter().map(|run| run.wall_seconds).sum()
     }
 
     /// Particles × steps over all runs `[-]`.
-    #[must_use]
     pub fn particle_steps(&self) -> f64 {
         self.runs.iter().map(RunSummary::particle_steps).sum()
     }
 
     /// Mean wall time per particle and step `[µs]`; `None` if no step was taken.
-    #[must_use]
     pub fn microseconds_per_particle_step(&self) -> Option<f64> {
         microseconds_each(self.wall_seconds(), self.particle_steps())
     }
 
     /// The result with a label beside the name of each run, number, table and picture; `named` adds it to a variant.
-    #[must_use]
     pub fn labelled(mut self, label: &Variant, named: impl Fn(&Variant) -> Variant) -> Self {
         if label.is_empty() {
             return self;
@@ -132,7 +126,6 @@ impl CaseResult {
     }
 
     /// The result with the runs of another one behind its own, and all that was made of them.
-    #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.metrics.extend(other.metrics);
         self.figures.extend(other.figures);
@@ -147,7 +140,6 @@ impl CaseResult {
     }
 
     /// Trial of a control that gave this result, beside the right case.
-    #[must_use]
     pub fn trial(&self, control: Control, right: &Self) -> ControlTrial {
         let runs = |result: &Self| result.runs.iter().map(|run| run.variant.clone()).collect::<Vec<Variant>>();
         let diverged = self.unexpected_divergences().next().is_some();
@@ -166,7 +158,6 @@ impl CaseResult {
 }
 
 /// Hash over those of several states.
-#[must_use]
 pub fn hash_of_states<'a>(states: impl Iterator<Item = &'a String>) -> String {
     let mut hash = Sha256::new();
     for state in states {
@@ -178,7 +169,6 @@ pub fn hash_of_states<'a>(states: impl Iterator<Item = &'a String>) -> String {
 }
 
 /// Wall time over the number of things done in it `[µs]`.
-#[must_use]
 pub(in crate::case) fn microseconds_each(wall_seconds: f64, count: f64) -> Option<f64> {
     (count > 0.0).then(|| wall_seconds * 1e6 / count)
 }

@@ -47,7 +47,6 @@ impl Estimate {
     }
 
     /// Of two sets of runs together.
-    #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
             runs: self.runs + other.runs,
@@ -61,14 +60,12 @@ impl Estimate {
     }
 
     /// Memory at its most on so many threads, of which each may hold a run `[bytes]`.
-    #[must_use]
     pub fn memory(&self, threads: usize) -> f64 {
         let at_once = threads.clamp(1, self.runs.max(1)) as f64;
         (self.running * at_once).min(self.all_running) + self.all_particles * BYTES_KEPT
     }
 
     /// Particles, memory and time on one core in words, with so many runs at once.
-    #[must_use]
     pub fn in_words(&self, threads: usize) -> String {
         let (memory, hours) = (self.memory(threads) / GIBIBYTE, self.core_seconds / 3600.0);
         let [particles, memory, hours] = [self.all_particles, memory, hours].map(rounded);
@@ -148,7 +145,6 @@ impl Limits {
     pub const NONE: Self = Self { memory: f64::INFINITY, core_hours: f64::INFINITY };
 
     /// Those of the environment or the usual ones, except those given: gibibytes of memory and hours of one core.
-    #[must_use]
     pub fn of(memory: Option<f64>, core_hours: Option<f64>) -> Self {
         let usual = Self::default();
         Self {

@@ -4,14 +4,12 @@
 const GAIN: f64 = 0.7;
 
 /// Speed-up of a run on a number of threads relative to one thread `[-]`.
-#[must_use]
 pub fn speed_up(threads: usize) -> f64 {
     1.0 + GAIN * (threads.max(1) - 1) as f64
 }
 
 /// Wall time of runs on so many threads, from their times on one core; all in `[s]`: that of the longest run with its share of the
 /// threads, or of all threads at work on all runs.
-#[must_use]
 pub fn wall_time(core_seconds: &[f64], threads: usize) -> f64 {
     let share = threads / core_seconds.len().max(1);
     let longest = core_seconds.iter().copied().fold(0.0, f64::max) / speed_up(share);

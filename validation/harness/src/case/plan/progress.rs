@@ -58,7 +58,6 @@ impl<'a> Progress<'a> {
     }
 
     /// Receiver of states during the run; none if no states are requested.
-    #[must_use]
     pub fn output(&self) -> Option<&'a dyn StateOutput> {
         self.monitor.output(self.run)
     }

@@ -11,7 +11,6 @@ pub struct Registry(&'static [&'static dyn AnyCase]);
 
 impl Registry {
     /// A registry of these cases, which `list` and the report keep in this order.
-    #[must_use]
     pub const fn new(cases: &'static [&'static dyn AnyCase]) -> Self {
         Self(cases)
     }
@@ -32,7 +31,6 @@ impl Registry {
     }
 
     /// Origin of the code of the cases: elsewhere, if that of any of them is.
-    #[must_use]
     pub fn origin(self) -> CodeOrigin {
         self.iter().map(AnyCase::origin).fold(CodeOrigin::PACKAGE, CodeOrigin::and)
     }

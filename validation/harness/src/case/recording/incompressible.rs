@@ -62,7 +62,6 @@ impl Restartable for IncompressibleSimulation<2> {
 
 impl Frame {
     /// A picture of both phases, the fluid's particles first; `phase` is 0 for the fluid and 1 for the sediment.
-    #[must_use]
     pub fn of_phases<const D: usize>(snapshot: &IncompressibleSnapshot<D>) -> Self {
         let phases = [&snapshot.fluid, &snapshot.sediment];
         let joined = |array: fn(&PhaseSnapshot<D>) -> &Vec<Vector<D>>| {

@@ -66,7 +66,6 @@ where
 
 impl Frame {
     /// A picture of the flow, in the plane or in space.
-    #[must_use]
     pub fn of_flow<const D: usize>(snapshot: &Snapshot<D>) -> Self {
         Self {
             time: snapshot.time,

@@ -27,7 +27,6 @@ const SWITCH: &str = "0 switches it off";
 
 impl Features {
     /// Those of all cases of a registry.
-    #[must_use]
     pub fn of(registry: Registry) -> Self {
         let mut features = Self::default();
         let fields = |schema: &'static Value| schema["properties"].as_object().into_iter().flatten();
@@ -46,7 +45,6 @@ impl Features {
     }
 
     /// Options that a serialised run has chosen.
-    #[must_use]
     pub fn chosen(&self, run: &Value) -> BTreeSet<FeatureOption> {
         let mut chosen = BTreeSet::new();
         self.walk("", run, &mut chosen);

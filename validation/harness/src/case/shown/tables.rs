@@ -6,7 +6,6 @@ use serde_json::Value as Schema;
 
 /// TOML in comments: the tables of schemas, each below a dotted path, with meaning, unit and rule of all their fields. Empty, if
 /// there are none.
-#[must_use]
 pub fn tables_to_add(schemas: &[(&str, &Schema)]) -> String {
     let tables: String = schemas.iter().map(|(path, schema)| tables_below(path, schema)).collect();
     let heading = "\n# Tables that this file may add, in place of an empty list.\n\

@@ -42,31 +42,26 @@ impl Variant {
     }
 
     /// Whether it has no key: the only run of its case.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }
 
     /// The value of a key.
-    #[must_use]
     pub fn get(&self, key: &str) -> Option<&Value> {
         self.parts().find(|(other, _)| *other == key).map(|(_, value)| value)
     }
 
     /// Whether it has every key of another with the same value.
-    #[must_use]
     pub fn includes(&self, other: &Self) -> bool {
         other.parts().all(|(key, value)| self.get(key) == Some(value))
     }
 
     /// The run that a number of this variant is of: of those whose keys it has, the one with most; none where it is of several.
-    #[must_use]
     pub fn run_among<'a>(&self, runs: &'a [Self]) -> Option<&'a Self> {
         runs.iter().filter(|run| self.includes(run)).max_by_key(|run| run.parts().count())
     }
 
     /// Whether a number of this variant may come from a run of another: what both name has a value in common.
-    #[must_use]
     pub fn concerns(&self, run: &Self) -> bool {
         let in_common = |own: &Value, other: &Value| match (own.range(), other.number()) {
             (Some(range), Some(number)) => range.contains(&number),
@@ -86,19 +81,16 @@ impl Variant {
     }
 
     /// File name of this variant, such as `slope-angle-24-start-rest`: letters, digits, points and dashes.
-    #[must_use]
     pub fn file_name(&self) -> String {
         file_name(&self.to_string())
     }
 
     /// End of a file name that tells this variant from others; empty where it has no key.
-    #[must_use]
     pub fn suffix(&self) -> String {
         if self.is_empty() { String::new() } else { format!("-{}", self.file_name()) }
     }
 
     /// File name of this variant if the keys are known, from its values alone: `rest-40`.
-    #[must_use]
     pub fn file_name_of_values(&self) -> String {
         let values: Vec<String> = self.values().map(|value| file_name(value.text())).collect();
         values.join("-")

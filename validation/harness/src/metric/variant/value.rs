@@ -10,26 +10,22 @@ pub struct Value(String);
 
 impl Value {
     /// Its text.
-    #[must_use]
     pub fn text(&self) -> &str {
         &self.0
     }
 
     /// The number.
-    #[must_use]
     pub fn number(&self) -> Option<f64> {
         number_in(&self.0)
     }
 
     /// The range.
-    #[must_use]
     pub fn range(&self) -> Option<RangeInclusive<f64>> {
         let (lower, upper) = self.0.split_once("..")?;
         Some(number_in(lower)?..=number_in(upper)?)
     }
 
     /// The numbers that are joined; a value that joins nothing is alone.
-    #[must_use]
     pub fn joined(&self) -> Vec<Self> {
         let parts: Vec<&str> = self.0.split('_').collect();
         let is_list = parts.iter().all(|part| number_in(part).is_some());
