@@ -62,7 +62,7 @@ fn error(
 fn alone(flow: &SettlingFlow, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
     let (series, root) = (&data.series, flow.root());
     let error = |quantity, array: &[f64]| error(quantity, variant, series, array, (root, ALONE));
-    let reason = "the project's aim: 1 % of the force balance's velocity, averaged over the last 60 %";
+    let reason = "the project's aim: 1 % of the force balance's velocity, averaged over the run's last 60 %";
     vec![
         error(TERMINAL_VELOCITY_ERROR, &series.slip).gated(Limit::Within(-1.0, 1.0), reason),
         momentum(variant, data.momentum_error),
