@@ -164,14 +164,11 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
         };
         let credible: Vec<String> = outcome.parameters.iter().filter_map(credible).collect();
         if !credible.is_empty() {
-            lines.push(format!(
-                "Posterior with a uniform prior over the ranges, 95 % intervals: {}.",
-                credible.join("; ")
-            ));
+            lines.push(format!("Posterior with a uniform prior, 95 % intervals: {}.", credible.join("; ")));
         }
         if let Some(inside) = outcome.truth_inside {
             let word = if inside { "contains" } else { "does not contain" };
-            lines.push(format!("The joint 95 % region {word} the true values behind the synthetic data."));
+            lines.push(format!("The joint 95 % region {word} the true values of the synthetic data."));
         }
     } else {
         lines
