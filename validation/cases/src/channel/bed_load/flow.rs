@@ -1,6 +1,5 @@
 //! The flow: water over a bed that moves.
 
-use super::kept::KeptState;
 use crate::case::ParameterError;
 use crate::channel::TurbulenceClosure;
 use crate::reference::bed_load::TransportFormula;
@@ -296,10 +295,6 @@ impl BedLoadFlow {
             rules::between("continuum.held_depth", continuum.held_depth, 0.0, 0.9 * continuum.bed_depth, remedy)?;
         }
         rules::refuse("continuum.closures", continuum.closures.problem())?;
-        if continuum.start_state == StartState::Kept && KeptState::of(self).is_none() {
-            let (rule, remedy) = ("layer unless a state of this slope and set-up is kept", "start from the layer");
-            return Err(ParameterError::field("continuum.start_state", "kept", rule, remedy));
-        }
         let Closures { mixing_length, karman, turbulent_schmidt, .. } = continuum.closures;
         if mixing_length != MixingLengthClosure::Integral {
             let remedy = "choose it: the particle model has only this one; bed-load-1d compares all";

@@ -1,6 +1,7 @@
 //! Runs: their names, what they cost and how they are observed.
 
-use super::flow::{BedLoadFlow, BedLoadFormulation};
+use super::flow::{BedLoadFlow, BedLoadFormulation, StartState};
+use super::kept::KeptState;
 use super::observation::{BedLoadObservation, BedLoadObserver};
 use crate::case::{Flow, ParameterError, Progress, RunCost, cost};
 use crate::channel::Channel;
@@ -28,7 +29,13 @@ impl Flow for BedLoadFlow {
     type Observation = BedLoadObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
-        self.checked()
+        self.checked()?;
+        let is_kept = self.formulation.is_continuum() && self.continuum.start_state == StartState::Kept;
+        if is_kept && KeptState::of(self).is_none() {
+            let (rule, remedy) = ("layer unless a state of this slope and set-up is kept", "start from the layer");
+            return Err(ParameterError::field("continuum.start_state", "kept", rule, remedy));
+        }
+        Ok(())
     }
 
     fn regime(&self, _: &BedLoadObservation) -> FlowRegime {
