@@ -1,6 +1,5 @@
 //! The domain: what bounds it along each axis, and what a boundary does to a particle that has crossed it.
 
-use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
 use serde::{Deserialize, Serialize};
 
@@ -39,19 +38,6 @@ impl<const D: usize> Domain<D> {
     pub fn periodic(lower: [f64; D], upper: [f64; D]) -> Self {
         let axes = std::array::from_fn(|axis| AxisBoundary::Periodic { lower: lower[axis], upper: upper[axis] });
         Self { axes }
-    }
-
-    /// Periods hold the reach of the kernel: no particle may see another one twice.
-    pub(crate) fn check_periods(&self, least: f64) -> Result<(), SceneError> {
-        for (axis, boundary) in self.axes.iter().enumerate() {
-            if let AxisBoundary::Periodic { lower, upper } = boundary {
-                let length = upper - lower;
-                if length.is_nan() || length < least {
-                    return Err(SceneError::Period { axis, length, least });
-                }
-            }
-        }
-        Ok(())
     }
 
     /// The period of an axis `[m]`, or without one the range of coordinates along it.

@@ -1,5 +1,6 @@
 //! Errors of scenes that cannot be simulated.
 
+use crate::domain::{AxisBoundary, Domain};
 use crate::parameter::ParameterProblem;
 
 /// A scene that cannot be simulated.
@@ -66,4 +67,19 @@ pub enum SceneError {
     /// More particles than the neighbour list can address.
     #[error("the scene has {0} particles, more than the neighbour list can address; use larger particles")]
     TooLarge(usize),
+}
+
+impl SceneError {
+    /// Periods hold the reach of the kernel: no particle may see another one twice.
+    pub(crate) fn check_periods<const D: usize>(domain: &Domain<D>, least: f64) -> Result<(), Self> {
+        for (axis, boundary) in domain.axes.iter().enumerate() {
+            if let AxisBoundary::Periodic { lower, upper } = boundary {
+                let length = upper - lower;
+                if length.is_nan() || length < least {
+                    return Err(Self::Period { axis, length, least });
+                }
+            }
+        }
+        Ok(())
+    }
 }

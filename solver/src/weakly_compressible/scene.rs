@@ -109,7 +109,7 @@ impl<const D: usize> Scene<D> {
         self.check_parameters()?;
         self.check_values()?;
         self.enclosure.check(self.spacing, self.equation_of_state.sound_speed())?;
-        self.domain.check_periods(self.search_radius())
+        SceneError::check_periods(&self.domain, self.search_radius())
     }
 
     /// Arrays of one length, and empty only where an inlet feeds the flow.

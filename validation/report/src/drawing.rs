@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Writes `NAME.svg`, `NAME.png`, `NAME.pdf` and the data as `NAME.csv` into a folder; the path of the PNG.
 pub(super) fn write_figure(figure: &Figure, folder: &Path, drawings: &Drawings) -> Result<PathBuf, FigureError> {
+    check_name(&figure.name)?;
     let format = drawings.format();
     let key = drawings.key(&(figure, format));
     let vectors = drawings.bytes(&key, "svg", || render::svg(figure, format).map(String::into_bytes))?;
@@ -26,6 +27,7 @@ pub(super) fn write_picture(
     drawings: &Drawings,
     format: FigureFormat,
 ) -> Result<PathBuf, FigureError> {
+    check_name(&figure.name)?;
     let draw = || render::png(&render::svg(figure, format)?, format);
     let pixels = drawings.bytes(&drawings.key(&(figure, format)), "png", draw)?;
     figure::put(folder, &figure.name, "png", &pixels)
@@ -37,9 +39,14 @@ pub(super) fn write_animation(
     folder: &Path,
     drawings: &Drawings,
 ) -> Result<PathBuf, FigureError> {
+    check_name(&animation.name)?;
     let moving = drawings.bytes(&drawings.key(animation), "gif", || encode_gif(animation))?;
     if let Some(middle) = animation.frames.get(animation.frames.len() / 2) {
         write_picture(&animation.figure(middle), folder, drawings, FigureFormat::HALF)?;
     }
     figure::put(folder, &animation.name, "gif", &moving)
+}
+
+fn check_name(name: &str) -> Result<(), FigureError> {
+    if figure::is_file_name(name) { Ok(()) } else { Err(FigureError::Name { name: name.to_owned() }) }
 }

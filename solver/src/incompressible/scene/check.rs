@@ -42,7 +42,7 @@ impl<const D: usize> IncompressibleScene<D> {
                 refuse(Some(ParameterProblem::new(field, value, "positive and finite", "give it in SI units")))?;
             }
         }
-        self.domain.check_periods(least_period)
+        SceneError::check_periods(&self.domain, least_period)
     }
 
     /// Requirements of columns of grains on the scene, and their existence where φ is taken from them.
