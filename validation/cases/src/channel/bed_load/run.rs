@@ -32,7 +32,7 @@ impl Flow for BedLoadFlow {
         self.checked()?;
         let is_kept = self.formulation.is_continuum() && self.continuum.start_state == StartState::Kept;
         if is_kept && KeptState::of(self).is_none() {
-            let (rule, remedy) = ("layer unless a state of this slope and set-up is kept", "start from the layer");
+            let (rule, remedy) = ("\"layer\", for no state of this slope and set-up is kept", "set it to \"layer\"");
             return Err(ParameterError::field("continuum.start_state", "kept", rule, remedy));
         }
         Ok(())

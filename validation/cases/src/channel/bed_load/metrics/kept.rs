@@ -52,7 +52,8 @@ pub(super) fn of_pair(records: &[BedLoadRecord], (run, fast): &BedLoadRecord) ->
     let share = slower / (slower - faster);
     let start = slow_run.start() + share * (run.start() - slow_run.start());
     let starts = Value::list([slow_run.start(), run.start()]);
-    let variant = Variant::of("formulation", run.formulation.name()).and("slope", run.slope).and("start", starts);
+    let variant = Variant::of("formulation", run.formulation.name()).and("slope", run.slope);
+    let variant = variant.and("start", starts).and("spacing", run.spacing());
     let mut metrics = vec![
         STEADY_START
             .of(&variant, start)
