@@ -182,7 +182,7 @@ fn span(values: impl Iterator<Item = f64>, digits: fn(f64) -> String) -> Option<
 /// What the `{number}` of `{all}` comparisons with one verdict say of the model, which is off by a `{share}`; in the order of the verdicts.
 const STATEMENTS: [(VerdictMark, &str); 4] = [
     (VerdictMark::PASS, "{number} of {all} comparisons with published results agree within their uncertainty, {share}"),
-    (VerdictMark::EXPECTED, "{number} differ by more than their uncertainty: the model error is at least {share}"),
+    (VerdictMark::EXPECTED, "{number} differ by more than their uncertainty; the least model errors are {share}"),
     (VerdictMark::OBSERVED, "{number} are undecided, because part of the uncertainty is unknown"),
     (VerdictMark::OBSERVED, "{number} have no known uncertainty"),
 ];

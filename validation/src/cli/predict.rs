@@ -40,7 +40,7 @@ fn collapse(case: &str, command: &CollapseArguments, session: &mut Session<'_>) 
     let results = simulate_announced("predict", runs, &store, session.quiet)?;
     let predicted = plan.evaluate(&results, &measured.unwrap_or_default())?;
     let lines: String = predicted.iter().map(|(own, metric)| lines(own, metric, &plan)).collect();
-    let text = format!("plan {} of {} s after 1970 (UTC)\n{lines}", plan.digest, plan.unix_time);
+    let text = format!("plan {} at Unix time {} s\n{lines}", plan.digest, plan.unix_time);
     let rows = csv_text(predicted.iter().map(|(own, _)| own)).map_err(Error::from);
     let written = rows.and_then(|rows| write_whole(&folder.join("prediction.csv"), rows.as_bytes()));
     let written = written.and_then(|()| write_whole(&folder.join("summary.txt"), text.as_bytes()));

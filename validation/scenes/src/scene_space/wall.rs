@@ -213,7 +213,7 @@ impl setting::SceneWall<3> for SpaceWall {
         if let Some(turn) = &self.turn {
             turn.check()?;
             let (from, to) = turn.about;
-            if !((vector::<3>(&to) - vector::<3>(&from)).norm() > 0.0) {
+            if vector::<3>(&to) == vector::<3>(&from) {
                 let value = format!("{} m twice", shown(&vector::<3>(&from)));
                 return refused("turn.about", value, "two points of the axis", "move one of them along the axis");
             }

@@ -61,7 +61,8 @@ pub fn summary(runs: &[RunFields]) -> String {
         let [pressure, shear] = [3, 4].map(|k| run.core[k].0 / run.core[k + 4].0);
         if pressure.max(shear) - 1.0 > UNBALANCED || 1.0 - pressure.min(shear) > UNBALANCED {
             caution(&format!(
-                "{}: the contact stresses differ from the momentum balance by more than 5 %; average over a longer time",
+                "{}: contact stresses are not the momentum balance's; average over a longer time or, where their ratio is far from 1, \
+                 correct density, `width`, `length` or the unit of forces",
                 run.name
             ));
         }

@@ -66,7 +66,7 @@ fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
         EXPERIMENTAL_EXCESS.of(&variant, experiment - measured).with_snapshot_tolerance(0.0, 1e-6).against(
             None,
             "Forterre & Pouliquen 2003, the slope at which h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s), a fit to experiments, equals the \
-             thickness, less the angle found: what a local law does not know, and the nonlocal one knows but for the exponent of its h_stop",
+             thickness, minus the angle found: positive where layers stop on too gentle slopes. A local law has no h_stop",
             GLASS_BEADS_FLOW_RULE.confidence,
         )
         .known_to(

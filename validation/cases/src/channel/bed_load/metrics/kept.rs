@@ -80,7 +80,7 @@ pub(super) fn of_pair(records: &[BedLoadRecord], (run, fast): &BedLoadRecord) ->
             .exactly(expected, "the 1-D layers over a moving bed and over one at rest")
             .gated(
                 Limit::Within(expected - DEFICIT, expected + DEFICIT),
-                "0.6 u_*: over held grains a shift by a fifth of a 1 mm spacing at 2.9 u_* per mm",
+                "0.6 u_*: a bed level uncertain by 0.2 mm, where velocity grows by 2.9 u_* per mm",
             )
     }));
     metrics
