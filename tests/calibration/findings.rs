@@ -118,7 +118,7 @@ fn a_truth_on_a_bound_is_told() {
 fn a_wrong_law_is_told() {
     let findings = of_exact_data(0.4, 1.0, |_, velocity| velocity);
     assert_told(&findings, &["does not explain the data"]);
-    assert_told(&findings, &["neighbouring residuals correlate"]);
+    assert_told(&findings, &["neighbouring residuals are correlated"]);
 }
 
 #[test]

@@ -228,7 +228,7 @@ fn a_report_that_nothing_has_changed_says_again_what_it_said() {
         [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned())
     };
     let page = place.path("report/cases/water-film/index.html");
-    let unchanged = "nothing has changed since this report was made";
+    let unchanged = "nothing has changed since this report was written";
     let [first, told] = report(&[]);
     assert!(!told.contains(unchanged), "{told}");
     let [second, told] = report(&[]);

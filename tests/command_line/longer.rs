@@ -206,7 +206,7 @@ fn a_folder_of_results_and_one_of_states_stand_for_their_newest_state() {
         let all = std::iter::once("run").chain(arguments.iter().map(String::as_str)).collect::<Vec<_>>();
         let finished = place.bagnold(&all).assert().code(2);
         let told = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
-        assert!(told.contains(reason) && told.contains("; give the file that"), "{told}");
+        assert!(told.contains(reason) && told.contains("; give the state file that `bagnold run` names"), "{told}");
     }
 }
 

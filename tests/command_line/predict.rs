@@ -39,7 +39,7 @@ fn what_was_compared_with_measurements_is_told_from_what_was_not() {
     };
     assert!(of("0.046", "0.02").contains("\ninside the range compared"));
     let deep = of("0.2", "0.02");
-    assert!(deep.contains("outside of what was compared") && deep.contains("fewer than ten runs"), "{deep}");
+    assert!(deep.contains("outside the range compared") && deep.contains("fewer than ten runs"), "{deep}");
     assert!(of("0.1", "0.0004").contains("no motion"));
 }
 
@@ -91,6 +91,6 @@ fn a_column_is_predicted_from_the_draws_of_a_law_and_judged_by_the_grains() {
     assert!(judged(value + 3.0 * (u_numerical + u_input + 0.01)).contains(": model error\n"));
     assert_eq!((read("plan.json"), read("prediction.csv")), (plan.clone(), prediction));
     let refused = predict(&["--set", "gravity=3.7"]).code(2);
-    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("holds a prediction of another plan"));
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("contains a prediction of another plan"));
     assert_eq!(read("plan.json"), plan);
 }

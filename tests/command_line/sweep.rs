@@ -67,7 +67,7 @@ fn a_sweep_may_mean_some_runs_only() {
     assert!(results.contains("fluid=newtonian") && !results.contains("fluid=bingham"), "{results}");
     let other = refusal(&chosen.replace("case = \"film\"", "case = \"film\"\nonly = [\"fluid=oil\"]"), &[]);
     assert!(
-        other.starts_with("error: plan.toml: `cases[0].only` is \"fluid=oil\", but must be keys of a run"),
+        other.starts_with("error: plan.toml: `cases[0].only` is \"fluid=oil\", but must be keys and values of a run"),
         "{other}"
     );
 }

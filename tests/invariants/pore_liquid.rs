@@ -158,7 +158,7 @@ fn mixtures_that_are_not_served_are_refused() {
     };
     let coarse =
         message(|scene| scene.rheology = Rheology::ViscousNumber(ViscousNumber { grain_diameter: 0.05, ..SAND }));
-    assert!(coarse.starts_with("`spacing` is 0.01, but must be at least"), "{coarse}");
+    assert!(coarse.starts_with("`spacing` is 0.01 m, but must be at least"), "{coarse}");
     let mut fed = crate::invariants::inlets::fed();
     fed.rheology = submerged();
     let fed = Simulation::new(fed).expect_err("refused").to_string();

@@ -134,6 +134,6 @@ fn a_smooth_wall_is_refused_where_the_operators_know_rough_ones_only() {
     assert_eq!(
         refused(Numerics { wall_treatment: WallTreatment::Paper, ..default }),
         "`wall_treatment` is paper, but must be \"extrapolated\" with a smooth wall, such as a gate; the paper's walls are \
-         rough; choose this, or leave the gate out"
+         always rough; choose \"extrapolated\", or leave the gate out"
     );
 }

@@ -10,11 +10,12 @@ use serde_json::{Map, Value, json};
 pub const LARGEST_LENGTH: f64 = 1e5;
 
 /// Unit, smallest size of a number that is not 0, and largest size.
-const BY_UNIT: [(&str, f64, f64); 14] = [
+const BY_UNIT: [(&str, f64, f64); 15] = [
     ("-", 1e-15, 1e9),
     ("m", 1e-9, LARGEST_LENGTH),
     ("s", 1e-12, 1e9),
     ("°", 1e-6, 360.0),
+    ("rad", 1e-12, 1e9),
     ("m/s", 1e-12, 1e5),
     ("m/s²", 1e-9, 1e6),
     ("kg/m³", 1e-6, 1e6),
