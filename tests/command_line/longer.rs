@@ -201,7 +201,8 @@ fn a_folder_of_results_and_one_of_states_stand_for_their_newest_state() {
     outcome(&place, &fresh);
     std::fs::create_dir(place.path("empty")).expect("writable");
     std::fs::remove_dir_all(place.path("store")).expect("removed");
-    for (given, reason) in [("empty", "neither a state nor the case.toml"), ("first", "no state of this run is stored")] {
+    for (given, reason) in [("empty", "neither a state nor the case.toml"), ("first", "no state of this run is stored")]
+    {
         let arguments = from(&level, given, &[]);
         let all = std::iter::once("run").chain(arguments.iter().map(String::as_str)).collect::<Vec<_>>();
         let finished = place.bagnold(&all).assert().code(2);

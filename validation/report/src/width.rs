@@ -69,7 +69,7 @@ mod tests {
         let part = |class: &str, x: &str, width: &str| json!({ "class": class, "x": x, "width": width });
         assert_eq!(bar["parts"], json!([part("digitisation", "0.0", "21.6"), part("repeat", "21.6", "38.4")]));
         let says = |field: &str, text: &str| bar[field].as_str().is_some_and(|own| own.contains(text));
-        assert!(says("statement", "of the gate: digitisation, repetition"), "{bar}");
+        assert!(says("statement", "of the limit: digitisation, repetition"), "{bar}");
         assert!(says("words", "repetition 0.2\u{202f}m: five seeds"), "{bar}");
         let too_wide = metric.known_to(Origin::Experiment, Some(5.0), "theirs");
         let bar = width(&too_wide).expect("known");

@@ -219,11 +219,11 @@ fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {
         .map(|(figure, panel)| format!("{}: {} and {}{}", figure.name, named(&panel.x), named(&panel.y), heads(panel)));
     let there: BTreeSet<String> = there.collect();
     let there: Vec<String> = there.into_iter().collect();
-    let rule = format!("the axes of one of the case's figures, in names and kinds of units ({})", there.join("; "));
+    let rule = format!("the axes of one of the case's figures ({})", there.join("; "));
     let units = [&measurements.abscissa.unit, &measurements.measured.unit];
     let unknown =
         units.into_iter().find(|own| !unit::is_known(own)).map(|own| format!("[{own}] is not a known unit; "));
-    let remedy = "name the columns as the axes are labelled, with any unit of the same kind";
+    let remedy = "name the columns as the axes are labelled, in any unit that converts to theirs";
     let remedy = unknown.unwrap_or_default() + remedy;
     FieldError::new("columns", axes(measurements), &rule, &remedy).in_file(&measurements.path)
 }

@@ -307,7 +307,7 @@ mod tests {
         let checked = |rows: &[[f64; 4]]| check_motion(&motion(rows), "corners").map_err(|error| error.to_string());
         assert_eq!(checked(&[]), Ok(()));
         assert_eq!(checked(&[[0.0; 4], [1.0, 0.0, 0.0, 0.5]]), Ok(()));
-        let early = "`motion[0]` is (0, 0, 0.5, 0), but must be (0, 0, 0, 0), time 0 without displacement; begin with that row: `corners` give the position at the start";
+        let early = "`motion[0]` is (0, 0, 0.5, 0), but must be (0, 0, 0, 0), where the wall is at the start; begin with that row: `corners` give the position at the start";
         assert_eq!(checked(&[[0.0, 0.0, 0.5, 0.0]]), Err(early.to_owned()));
         let late = checked(&[[0.5, 0.0, 0.0, 0.0]]).expect_err("starts late");
         assert!(late.starts_with("`motion[0]` is (0.5, 0, 0, 0)"), "{late}");
