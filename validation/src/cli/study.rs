@@ -34,6 +34,7 @@ pub(super) fn run(
     let study = Study::read(file, registry)?;
     let tier = command.tier.unwrap_or(study.tier());
     let cases = study.prepare(registry, command.tier, &command.settings, command.allowance.limits())?;
+    let study = study.told_with(&command.settings);
     let store = command.work.open_store();
     if command.estimate {
         say(output, &estimate(&cases, &store));

@@ -6,8 +6,7 @@
 use super::file::StudyText;
 use super::{Study, schema};
 use crate::case::{
-    AnyCase, CaseResult, Changes, Estimate, ParameterError, PreparedCase, Progress, Registry, Tier, table_of_settings,
-    tables_to_add,
+    AnyCase, CaseResult, Changes, Estimate, ParameterError, PreparedCase, Progress, Registry, Tier, tables_to_add,
 };
 use crate::control::{Control, TriedControls};
 use crate::figure::Figure;
@@ -111,9 +110,7 @@ impl AnyCase for CanonicalStudy {
         }
         let base_tier = study.tier();
         // what is set is part of the parameters, by which evaluations are known and repeated
-        let mut told = study.clone();
-        told.base.lay_over(&table_of_settings(changes.settings));
-        let parameters_toml = told.complete(tier);
+        let parameters_toml = study.clone().told_with(changes.settings).complete(tier);
         // a report runs them beside the study
         let study = study.without_controls().with_variants_of(tier);
         let parts = study.prepare(self.cases, Some(base_tier), changes.settings, changes.limits)?;

@@ -42,7 +42,8 @@ pub use suite::{Suite, is_study};
 
 use crate::case::list::ListedChange;
 use crate::case::{
-    CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, hash_of_states, twice_given,
+    CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, hash_of_states,
+    table_of_settings, twice_given,
 };
 use crate::evaluation::parse_plan;
 use crate::figure::Figure;
@@ -158,6 +159,12 @@ impl Study {
     fn with_variants_of(mut self, tier: Tier) -> Self {
         self.changes = self.text.list().of_tier(tier).changes();
         self.drop_checks_without_runs();
+        self
+    }
+
+    /// The study whose results tell settings (`path=value`) of the command line among their parameters.
+    pub fn told_with(mut self, settings: &[String]) -> Self {
+        self.base.lay_over(&table_of_settings(settings));
         self
     }
 
