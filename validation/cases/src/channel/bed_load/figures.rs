@@ -3,7 +3,8 @@
 use super::BedLoadRecord;
 use super::fit::held_out;
 use super::flow::{BedLoadFlow, BedLoadFormulation};
-use super::metrics::is_fastest;
+use super::metrics::{SteadyFlow, is_fastest};
+use super::observation::BedLoadObservation;
 use super::run::pair_law_name;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load::TransportFormula;
@@ -18,10 +19,17 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
         figures.push(water(records, &slopes));
         figures.push(sediment(records, &slopes));
     }
-    let layers: Vec<&BedLoadRecord> = records.iter().filter(|(_, record)| record.data.layer.is_some()).collect();
+    // a pair from one kept state is shown by the flow between both that would not change
+    let shown = |record: &'_ BedLoadRecord| match record {
+        (run, _) if run.is_kept() && !run.rests() => {
+            SteadyFlow::of(records, record).map(|flow| (format!("{DILATING}, {}", percent(run.slope)), flow.data))
+        }
+        (run, record) => Some((label(run), record.data.clone())),
+    };
     for stage in [BedLoadFormulation::Porous, BedLoadFormulation::Frozen, BedLoadFormulation::Dilating] {
-        let of_stage: Vec<&BedLoadRecord> =
-            layers.iter().copied().filter(|(run, _)| run.formulation == stage).collect();
+        let layers = records.iter().filter(|(run, record)| run.formulation == stage && record.data.layer.is_some());
+        let of_stage: Vec<_> =
+            layers.filter_map(|record| shown(record).map(|(name, data)| (&record.0, name, data))).collect();
         if !of_stage.is_empty() {
             figures.push(against_layer(stage, &of_stage));
         }
@@ -135,35 +143,35 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
 }
 
 /// A stage of `continuum` against the 1-D layer.
-fn against_layer(stage: BedLoadFormulation, records: &[&BedLoadRecord]) -> Figure {
+fn against_layer(stage: BedLoadFormulation, flows: &[(&BedLoadFlow, String, BedLoadObservation)]) -> Figure {
     let mut water = Panel::new("", Axis::linear("u_f/u_* [-]"), Axis::linear("z [mm]"));
     let near = || Axis::linear("z [mm]").between(-8.0, 12.0);
     let mut close = Panel::new("", Axis::linear("u_f/u_* [-]").between(0.0, 12.0), near());
     let mut grains = Panel::new("", Axis::linear("u_s/u_* [-]"), near());
     let mut fraction = Panel::new("", Axis::linear("φ [-]"), near());
-    for (slot, (run, record)) in records.iter().enumerate() {
-        let Some(layer) = &record.data.layer else { continue };
+    for (slot, (run, name, data)) in flows.iter().enumerate() {
+        let Some(layer) = &data.layer else { continue };
         let scale = run.clear_water().friction_velocity();
         let curve = |values: &[f64], scale: f64, keep: &dyn Fn(usize) -> bool| -> Vec<(f64, f64)> {
             let inside = (0..layer.height.len()).filter(|k| keep(*k));
             inside.map(|k| (values[k] / scale, 1e3 * layer.height[k])).collect()
         };
         let with_grains = |k: usize| layer.solid_fraction[k] > 0.0;
-        let name = if slot == 0 { "1-D layer" } else { "" };
+        let of_layer = if slot == 0 { "1-D layer" } else { "" };
         let exact = curve(&layer.fluid_velocity, scale, &|_| true);
-        water.reference(name, exact.clone());
+        water.reference(of_layer, exact.clone());
         close.reference("", exact);
         grains.reference("", curve(&layer.grain_velocity, scale, &with_grains));
         fraction.reference("", curve(&layer.solid_fraction, 1.0, &|_| true));
         let of = |profile: &BlockProfile| -> Vec<(f64, f64)> {
             profile.points().iter().map(|point| (point.velocity / scale, 1e3 * point.height)).collect()
         };
-        let own = of(&record.data.channel.profile);
-        water.points(&label(run), slot, own.clone());
+        let own = of(&data.channel.profile);
+        water.points(name, slot, own.clone());
         close.points("", slot, own);
-        grains.points("", slot, of(&record.data.sediment));
+        grains.points("", slot, of(&data.sediment));
         if stage == BedLoadFormulation::Dilating {
-            let own = record.data.solid_fraction().into_iter().map(|(z, value)| (value, 1e3 * z));
+            let own = data.solid_fraction().into_iter().map(|(z, value)| (value, 1e3 * z));
             fraction.points("", slot, own);
         }
     }
@@ -197,7 +205,8 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
         _ if !run.is_judged() => Some(OTHER_PAIR_LAWS),
         BedLoadFormulation::Stabilised if is_fastest(records, run) => Some((PARTICLES, 0)),
         BedLoadFormulation::Frozen => Some((FROZEN, 2)),
-        BedLoadFormulation::Dilating if run.starts_as_usual() => Some((DILATING, 5)),
+        BedLoadFormulation::Dilating if run.rests() => None,
+        BedLoadFormulation::Dilating if run.starts_as_usual() || run.is_kept() => Some((DILATING, 5)),
         BedLoadFormulation::Dilating => Some(FROM_ANOTHER_START),
         _ => None,
     };
@@ -205,7 +214,11 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
         let rates: Vec<(f64, FittedValue)> = records
             .iter()
             .filter(|(run, _)| kind(run) == Some(own))
-            .map(|(run, record)| (run.stream().shields_number(), record.data.mean_transport()))
+            .filter_map(|record| match record {
+                (run, _) if run.is_kept() => Some((run, SteadyFlow::of(records, record)?.data.mean_transport())),
+                (run, record) => Some((run, record.data.mean_transport())),
+            })
+            .map(|(run, rate)| (run.stream().shields_number(), rate))
             .filter(|(_, rate)| rate.value > 0.0)
             .collect();
         let errors = rates.iter().map(|(_, rate)| rate.standard_error / rate.value);

@@ -363,6 +363,11 @@ impl BedLoadFlow {
         self.start() == if self.formulation.is_continuum() { 1.0 } else { USUAL_START }
     }
 
+    /// Whether it starts from a state that is kept.
+    pub(super) fn is_kept(&self) -> bool {
+        self.formulation.is_continuum() && self.continuum.start_state == StartState::Kept
+    }
+
     /// Whether a run differs from this one in its start alone.
     pub(super) fn has_another_start_than(&self, other: &Self) -> bool {
         let alike = |run: &Self| (run.formulation, run.pair_law(), run.rests(), run.continuum.start_state);

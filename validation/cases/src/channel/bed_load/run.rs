@@ -1,6 +1,6 @@
 //! Runs: their names, what they cost and how they are observed.
 
-use super::flow::{BedLoadFlow, BedLoadFormulation, StartState};
+use super::flow::{BedLoadFlow, BedLoadFormulation};
 use super::kept::KeptState;
 use super::observation::{BedLoadObservation, BedLoadObserver};
 use crate::case::{Flow, ParameterError, Progress, RunCost, cost};
@@ -30,8 +30,7 @@ impl Flow for BedLoadFlow {
 
     fn check(&self) -> Result<(), ParameterError> {
         self.checked()?;
-        let is_kept = self.formulation.is_continuum() && self.continuum.start_state == StartState::Kept;
-        if is_kept && KeptState::of(self).is_none() {
+        if self.is_kept() && KeptState::of(self).is_none() {
             let (rule, remedy) = ("\"layer\", for no state of this slope and set-up is kept", "set it to \"layer\"");
             return Err(ParameterError::field("continuum.start_state", "kept", rule, remedy));
         }

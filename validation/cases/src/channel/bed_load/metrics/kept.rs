@@ -41,17 +41,32 @@ fn between(slow: &BedLoadObservation, fast: &BedLoadObservation, share: f64) -> 
     mixed
 }
 
+/// The flow between a pair of runs that would not change, by the faster run of the pair.
+pub(in super::super) struct SteadyFlow {
+    /// Starts of both runs and of the flow between them `[-]`.
+    starts: [f64; 3],
+    pub(in super::super) data: BedLoadObservation,
+}
+
+impl SteadyFlow {
+    /// None of a run that is not the faster one of a pair.
+    pub(in super::super) fn of(records: &[BedLoadRecord], (run, fast): &BedLoadRecord) -> Option<Self> {
+        let is_slower = |other: &BedLoadFlow| run.has_another_start_than(other) && other.start() < run.start();
+        let (slow_run, slow) = records.iter().find(|(other, _)| run.is_kept() && is_slower(other))?;
+        let [slower, faster] = [slow, fast].map(|record| record.data.channel.trend(&record.data.stream_velocity));
+        let share = slower / (slower - faster);
+        let start = slow_run.start() + share * (run.start() - slow_run.start());
+        Some(Self { starts: [slow_run.start(), run.start(), start], data: between(&slow.data, &fast.data, share) })
+    }
+}
+
 /// Metrics of the pair that a run is the faster one of.
-pub(super) fn of_pair(records: &[BedLoadRecord], (run, fast): &BedLoadRecord) -> Vec<Metric> {
-    let find = |is_it: &dyn Fn(&BedLoadFlow) -> bool| records.iter().find(|(other, _)| is_it(other));
-    let slow = find(&|other| run.has_another_start_than(other) && other.start() < run.start());
-    let Some((slow_run, slow)) = slow.filter(|_| run.continuum.start_state == StartState::Kept) else {
+pub(super) fn of_pair(records: &[BedLoadRecord], record: &BedLoadRecord) -> Vec<Metric> {
+    let Some(SteadyFlow { starts: [slow, fast, start], data }) = SteadyFlow::of(records, record) else {
         return Vec::new();
     };
-    let [slower, faster] = [slow, fast].map(|record| record.data.channel.trend(&record.data.stream_velocity));
-    let share = slower / (slower - faster);
-    let start = slow_run.start() + share * (run.start() - slow_run.start());
-    let starts = Value::list([slow_run.start(), run.start()]);
+    let run = &record.0;
+    let starts = Value::list([slow, fast]);
     let variant = Variant::of("formulation", run.formulation.name()).and("slope", run.slope);
     let variant = variant.and("start", starts).and("spacing", run.spacing());
     let mut metrics = vec![
@@ -61,9 +76,8 @@ pub(super) fn of_pair(records: &[BedLoadRecord], (run, fast): &BedLoadRecord) ->
             .with_snapshot_tolerance(0.0, 2e-3)
             .gated(Limit::Within(0.98, 1.02), "2 %: profiles of state and runs, each shifted by 0.1 of 10 u_*"),
     ];
-    let data = between(&slow.data, &fast.data, share);
     metrics.extend(beside_layer(run, &data, &variant, (true, true)));
-    let rest = find(&|other| other.rests() && other.slope == run.slope).map(|(_, rest)| &rest.data);
+    let rest = records.iter().find(|(other, _)| other.rests() && other.slope == run.slope).map(|(_, rest)| &rest.data);
     let layers = data.layer.as_ref().zip(rest.and_then(|rest| rest.layer.as_ref()));
     let (Some(rest), Some(layers)) = (rest, layers) else { return metrics };
     metrics.extend([(NEAR_BED_DEFICIT, NEAR), (OUTER_DEFICIT, 0.5 * run.depth)].map(|(quantity, height)| {

@@ -4,6 +4,8 @@ mod continuum;
 mod kept;
 mod statements;
 
+pub(super) use kept::SteadyFlow;
+
 use super::BedLoadRecord;
 use super::fit::{HeldOut, held_out};
 use super::flow::{BedLoadFlow, BedLoadFormulation, StartState};
