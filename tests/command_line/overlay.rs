@@ -12,7 +12,7 @@ fn figure(place: &Place) -> String {
     let finished = place.run(&[CHEAP, &["--overlay", &refused]].concat()).code(2);
     let text = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
     assert!(text.contains("is weight [kg] over y/h [-], but must be the axes of one of the case's figures"), "{text}");
-    let there = text.split("units (").nth(1).expect("the figures are named");
+    let there = text.split("figures (").nth(1).expect("the figures are named");
     let own = there.split("; ").find(|own| own.contains("u [m/s] and y/h [-]")).expect("a profile").to_owned();
     own.split(':').next().expect("a name").to_owned()
 }
