@@ -163,18 +163,6 @@ fn a_figure_of_checks_stands_on_the_page_and_slips_in_it_are_named() {
 }
 
 #[test]
-fn a_body_of_another_mass_than_its_particles_is_named_once_with_its_scene() {
-    let (place, from) = (place(), "box\"\nlower = [0.0, 0.0]\nupper = [0.1, 0.1]\n");
-    let polygon = FLUME.replace(from, "polygon\"\npoints = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.11], [0.0, 0.11]]\n");
-    place.file("flume.toml", &polygon);
-    let said = String::from_utf8_lossy(&place.run(&["study.toml"]).get_output().stderr).into_owned();
-    assert!(
-        said.matches("of the body's mass").count() == 1 && said.contains("scene `flume`: `bodies[0]`: the"),
-        "{said}"
-    );
-}
-
-#[test]
 fn every_shipped_study_can_be_prepared() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/examples/studies");
     let mut seen = 0;

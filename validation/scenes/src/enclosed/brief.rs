@@ -80,7 +80,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             facets.iter().any(|facet| facet.normal.iter().all(|part| part.abs() < ALIGNED))
         };
         (matches!(self.material, Rheology::Newtonian(_)) && self.walls.iter().any(is_inclined))
-            .then(|| "; beside inclined walls the liquid keeps moving at up to 2 % of √(g H)".to_owned())
+            .then(|| "; beside inclined walls the liquid keeps moving at up to 0.3 % of √(g H)".to_owned())
     }
 
     /// The narrowest gap `[m]` between ends of different walls that is too narrow for a flow, and their names.

@@ -1,16 +1,16 @@
 //! Initial particles: on the sites of lattices that bodies hold, as dense as the material above them makes them.
 
 use super::behind_walls::{Permissions, Site};
+use super::cut_cells::{self, Part};
 use super::flow::Dimension;
 use super::geostatic::GeostaticStress;
 use super::lattice::{LatticeGroup, SiteLattice, groups};
 use super::setting::{SceneBody, SceneInlet, SceneWall};
 use super::sides::SceneSides;
-use super::surfaces::{Surfaces, is_taken};
+use super::surfaces::{NearestWall, Surfaces, is_taken};
 use super::{BodyPreparation, SceneFlow, shapes};
 use crate::case::ParameterError;
 use crate::checkpoint::is_interrupted;
-use crate::output::caution_about;
 use crate::setup::displaced_flow;
 use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::material::pore_liquid::SKELETON_SHARE;
@@ -33,11 +33,6 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     ) -> Result<(Flow<D>, f64), ParameterError> {
         let Self { spacing, jitter, ref bodies, .. } = *self;
         let groups = groups(bodies, &self.sides, spacing);
-        let remarks = misfits(bodies, &groups, spacing);
-        if !remarks.is_empty() {
-            let subject = format!("bodies of scene `{}`", self.name);
-            caution_about(&subject, &format!("scene `{}`: {}", self.name, remarks.join("; ")));
-        }
         let (across, along) = self.pulls();
         let pull = across.norm();
         let up = if pull > 0.0 { -across / pull } else { -self.down() };
@@ -45,12 +40,20 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let (mut all, mut hidden, mut free) = (0, 0, Vec::new());
         for LatticeGroup { lattice, bodies: members } in &groups {
             let sites = self.held(lattice, members, walls);
-            let behind = self.permissions(self.cut_at_most).behind(&sites)?;
+            let permissions = self.permissions(self.cut_at_most);
+            let behind = permissions.behind(&sites)?;
             let is_free = |site: &Site<D>| !site.nearest.is_some_and(|nearest| is_taken(&nearest, lattice.shortest()));
             all += sites.len();
             hidden += behind.iter().filter(|is_behind| **is_behind).count();
             let pairs = sites.into_iter().zip(behind);
-            free.extend(pairs.filter(|(site, behind)| !behind && is_free(site)).map(|(site, _)| (site, *lattice)));
+            let own: Vec<Site<D>> =
+                pairs.filter(|(site, behind)| !behind && is_free(site)).map(|(site, _)| site).collect();
+            let parts = cut_cells::parts(lattice, &own, |place| {
+                let is_held = holder(bodies, place).is_some_and(|body| members.contains(&body));
+                let is_in_front = |wall: NearestWall| wall.distance > 0.0 || permissions.walls[wall.wall].1;
+                is_held && self.sides.hold(place) && walls.nearest(place).is_none_or(is_in_front)
+            });
+            free.extend(own.into_iter().zip(parts).map(|(site, part)| (part, *lattice, site.body)));
         }
         let share = if all == 0 { 0.0 } else { hidden as f64 / all as f64 };
         let is_stressed = self.preparation == BodyPreparation::Stressed;
@@ -62,12 +65,12 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             skeleton.bulk_modulus *= SKELETON_SHARE;
         }
         // takes minutes in a body of many thousand rows
-        let overburden = |(site, _): &(Site<D>, SiteLattice<D>)| {
-            let load = || weight * depth(bodies, &site.place, &up, spacing);
+        let overburden = |(part, ..): &(Part<D>, SiteLattice<D>, usize)| {
+            let load = || weight * depth(bodies, &part.centre, &up, spacing);
             if is_interrupted() { Err(ParameterError::Interrupted) } else { Ok(load()) }
         };
         let loads: Vec<f64> = free.iter().map(overburden).collect::<Result<_, _>>()?;
-        let sites = free.iter().map(|(site, _)| site.place);
+        let sites = free.iter().map(|(part, ..)| part.centre);
         let mut flow = displaced_flow(sites, (jitter * spacing, self.seed), |_| 0.0, |_| 0.0);
         let density = |load: &f64| skeleton.density(self.pressure + grains * start.pressure(*load));
         flow.density = loads.iter().map(density).collect();
@@ -80,8 +83,11 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         } else if self.lateral_pressure_ratio != 1.0 {
             flow.stress = loads.iter().map(|load| start.deviator(grains * load)).collect();
         }
-        flow.mass = free.iter().zip(&flow.density).map(|((_, lattice), density)| lattice.mass(*density)).collect();
-        flow.velocity = free.iter().map(|(site, _)| bodies[site.body].velocity()).collect();
+        let mass = |((part, lattice, _), density): (&(Part<D>, SiteLattice<D>, usize), &f64)| {
+            part.volume * lattice.mass(*density)
+        };
+        flow.mass = free.iter().zip(&flow.density).map(mass).collect();
+        flow.velocity = free.iter().map(|(.., body)| bodies[*body].velocity()).collect();
         Ok((flow, share))
     }
 
@@ -138,31 +144,6 @@ pub(crate) enum SiteFate {
     Behind,
 }
 
-/// Share of a body's mass that its particles may have too much or too little before it is said `[-]`.
-const MISFIT: f64 = 0.02;
-
-/// Remarks on bodies on the common lattice that are no whole number of its spacings: their particles have another mass
-/// than they.
-fn misfits<const D: usize>(bodies: &[impl SceneBody<D>], groups: &[LatticeGroup<D>], spacing: f64) -> Vec<String> {
-    let common = SiteLattice::<D>::common(spacing);
-    let of_cells = |body: &_| {
-        let cells = common.sites(SceneBody::extent(body)).filter(|(_, place)| SceneBody::holds(body, place));
-        cells.count() as f64 * common.mass(1.0)
-    };
-    let mut remarks = Vec::new();
-    for &number in groups.iter().filter(|group| group.lattice == common).flat_map(|group| &group.bodies) {
-        let share = of_cells(&bodies[number]) / bodies[number].volume();
-        // a body without a particle is refused elsewhere
-        if share > 0.0 && (share - 1.0).abs() > MISFIT {
-            remarks.push(format!(
-                "`bodies[{number}]`: the particles have {:.1} % of the body's mass; put plane faces on multiples of the spacing, {spacing} m, or reduce it",
-                100.0 * share
-            ));
-        }
-    }
-    remarks
-}
-
 /// The first body that holds a place, if any does, by its place among all.
 fn holder<const D: usize>(bodies: &[impl SceneBody<D>], place: &Vector<D>) -> Option<usize> {
     bodies.iter().position(|body| body.holds(place))
@@ -193,26 +174,6 @@ mod tests {
     use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
     use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
-    #[test]
-    fn a_body_of_broken_spacings_is_said_to_lose_mass() {
-        let velocity = (0.0, 0.0);
-        let misfits = |bodies: &[PlaneBody]| {
-            let sides = quick::<Plane, 2>().sides;
-            misfits(bodies, &groups(bodies, &sides, 0.0025), 0.0025)
-        };
-        let new = |height: f64| PlaneBody::Polygon {
-            points: vec![(0.0, 0.0), (0.1, 0.0), (0.1, height), (0.0, height)],
-            velocity,
-        };
-        assert_eq!(misfits(&[new(0.03)]), Vec::<String>::new());
-        // 12.5 rows: the middle of the last lies on the edge and is not held
-        let remarks = misfits(&[new(0.03), new(0.03125)]);
-        assert!(remarks.len() == 1 && remarks[0].starts_with("`bodies[1]`: the particles have 96.0 %"), "{remarks:?}");
-        // a box has rows of its own
-        let cuboid = PlaneBody::Box { lower: (0.0, 0.0), upper: (0.1, 0.03125), velocity };
-        assert_eq!(misfits(&[cuboid]), Vec::<String>::new());
-    }
-
     /// Volume of the particles that fill bodies without walls: their masses over their densities.
     fn filled<S: Dimension<D>, const D: usize>(bodies: Vec<S::Body>, spacing: f64) -> f64
     where
@@ -237,6 +198,14 @@ mod tests {
             for share in [plane, two, space] {
                 assert!((share - 1.0).abs() < 1e-9, "{spacing} m: {plane}, {two} and {space}");
             }
+        }
+        // a disc and a polygon have theirs within the samples of a cell
+        let disc = PlaneBody::Disc { centre: (0.03, 0.04), radius: 0.02, velocity: (0.0, 0.0) };
+        let points = vec![(0.0, 0.0), (0.1, 0.02), (0.07, 0.0523), (0.0, 0.03125)];
+        let polygon = PlaneBody::Polygon { points, velocity: (0.0, 0.0) };
+        for body in [disc, polygon] {
+            let share = filled::<Plane, 2>(vec![body.clone()], 0.0025) / body.volume();
+            assert!((share - 1.0).abs() < 2e-3, "{share} of {body:?}");
         }
         // what is beyond a side does not count: the tier's plane of symmetry is at 0
         let cut = filled::<Plane, 2>(vec![flat((-0.013, 0.0), (0.0501, 0.03125))], 0.0025) / (0.0501 * 0.03125);

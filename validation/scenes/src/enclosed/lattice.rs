@@ -74,10 +74,17 @@ impl<const D: usize> SiteLattice<D> {
             }
             None
         })
-        .map(move |cells| {
-            let middle = Vector::<D>::from(cells.map(|cell| cell as f64 + 0.5));
-            (cells, self.origin + middle.component_mul(&self.edges))
-        })
+        .map(move |cells| (cells, self.middle(&cells)))
+    }
+
+    /// Middle of a cell `[m]`.
+    pub(super) fn middle(&self, cell: &[i64; D]) -> Vector<D> {
+        self.place(&Vector::from(cell.map(|edge| edge as f64 + 0.5)))
+    }
+
+    /// Place of coordinates in edges of cells `[m]`.
+    pub(super) fn place(&self, coordinates: &Vector<D>) -> Vector<D> {
+        self.origin + coordinates.component_mul(&self.edges)
     }
 }
 

@@ -5,6 +5,7 @@
 mod behind_walls;
 mod brief;
 mod checks;
+mod cut_cells;
 mod doubts;
 pub(super) mod figures;
 pub(super) mod filling;
