@@ -41,9 +41,11 @@ fn collapse(case: &str, command: &CollapseArguments, session: &mut Session<'_>) 
     let predicted = plan.evaluate(&results, &measured.unwrap_or_default())?;
     let lines: String = predicted.iter().map(|(own, metric)| lines(own, metric, &plan)).collect();
     let text = format!("plan {} at Unix time {} s\n{lines}", plan.digest, plan.unix_time);
+    let stem = command.measured.as_ref().and_then(|file| Some(file.file_stem()?.to_string_lossy()));
+    let name = stem.map_or_else(|| "summary.txt".to_owned(), |stem| format!("verdict-{stem}.txt"));
     let rows = csv_text(predicted.iter().map(|(own, _)| own)).map_err(Error::from);
     let written = rows.and_then(|rows| write_whole(&folder.join("prediction.csv"), rows.as_bytes()));
-    let written = written.and_then(|()| write_whole(&folder.join("summary.txt"), text.as_bytes()));
+    let written = written.and_then(|()| write_whole(&folder.join(name), text.as_bytes()));
     written.map_err(|error| FileError::unwritable(&folder, &error))?;
     session.say(&text);
     Ok(Exit::Held)
@@ -57,7 +59,7 @@ fn lines(own: &BlindComparison, metric: &Metric, plan: &PredictionPlan) -> Strin
     let (value, u, fine) = (own.value, own.u_input.hypot(own.u_numerical), 2 * u32::from(*resolution));
     let [u_input, u_numerical] = [own.u_input, own.u_numerical].map(two_digits);
     let mut text = format!("{}  {}: u_input {u_input} of {draws} draws, ", own.quantity, within(value, u));
-    text += &format!("u_numerical {u_numerical} of resolutions {resolution} and {fine}\n");
+    text += &format!("u_numerical {u_numerical} by resolutions {resolution} and {fine}\n");
     text += &format!("  95 % by law and resolution: {}\n", ends(value - COVERAGE * u, value + COVERAGE * u));
     if let Some(interval) = &metric.prediction {
         let (both, count) = (ends(interval.lower, interval.upper), interval.comparisons);

@@ -9,7 +9,7 @@ use crate::evaluation::{CaseRequest, parse_plan};
 use crate::input::{DOCUMENT, FieldError, MeasuredFiles, WRITTEN_BY_HAND, read_text};
 use crate::league::{blind::BlindComparison, scatter};
 use crate::measured::{Measurements, WantedColumns};
-use crate::metric::{Metric, Quantity};
+use crate::metric::{Metric, Origin, Quantity};
 use crate::output::{FileError, FolderLock, Owner, claim, owner_of};
 use crate::store::{hexadecimal, identity_or_unique, is_of_this_program};
 use serde::{Deserialize, Serialize};
@@ -77,8 +77,8 @@ impl PredictionPlan {
         let text = read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error))?;
         let law: FittedLaw = parse_plan(file, &text, "bagnold predict column-planar")?;
         if let Some(given) = self.settings.iter().find(|given| given.starts_with("resolution")) {
-            let remedy = "give --resolution, that of the draws";
-            return Err(FieldError::new("--set", given, "of another parameter", remedy).into());
+            let remedy = "use --resolution for the resolution of the draws";
+            return Err(FieldError::new("--set", given, "of a parameter other than `resolution`", remedy).into());
         }
         let (given, wanted) = (law.draws.len(), usize::from(self.draws));
         if given < wanted {
@@ -99,8 +99,8 @@ impl PredictionPlan {
             let prepared = request.prepare(registry, file, &settings, limits)?;
             let runs = prepared.run_count();
             if runs > 1 {
-                let (value, remedy) = (format!("of {runs} runs"), "give every parameter one value");
-                return Err(FieldError::new("--set", value, "of a single run", remedy).into());
+                let defect = format!("selects {runs} runs, but a prediction needs one");
+                return Err(FieldError::finding("--set", defect, "give every parameter one value").into());
             }
             Ok(prepared)
         };
@@ -143,7 +143,7 @@ impl PredictionPlan {
                 quantity: name.to_owned(),
                 value,
                 u_input: scatter(found[2..].iter().map(|metric| metric.value), 2).map_or(0.0, |(_, scatter)| scatter),
-                u_numerical: (value - usual).abs(),
+                u_numerical: (value - usual).abs().max(found[0].uncertainty.of(&[Origin::Numerical]).unwrap_or(0.0)),
                 lower: interval.map(|interval| interval.lower),
                 upper: interval.map(|interval| interval.upper),
                 measured: own.iter().map(|own| own[0]).collect(),
@@ -189,17 +189,17 @@ impl PredictionPlan {
             let measured = Measurements::read(&MeasuredFiles::One(file.to_owned()), wanted)?;
             let points = measured.in_units("-", unit)?;
             let [[_, value, uncertainty]] = points[..] else {
-                let value = format!("of {} rows", points.len());
+                let defect = format!("{} rows, but one is allowed", points.len());
                 let remedy = "give repeats as columns: run_out #1 [-], run_out #2 [-]";
-                return Err(FieldError::new(quantity, value, "of a single row", remedy).in_file(file).into());
+                return Err(FieldError::finding(quantity, defect, remedy).in_file(file).into());
             };
             Ok((quantity, [value, uncertainty]))
         };
         let measured: Vec<_> = self.quantities().filter(is_given).map(read).collect::<Result<_, ToolError>>()?;
         if measured.is_empty() {
-            let rule = format!("one of {} with its unit among them", self.quantities().collect::<Vec<_>>().join(", "));
+            let defect = format!("no column of {} with a unit", self.quantities().collect::<Vec<_>>().join(", "));
             let remedy = "write `run_out [-],run_out uncertainty [-]` above `1.9,0.1`";
-            return Err(FieldError::new("columns", "of other quantities", &rule, remedy).in_file(file).into());
+            return Err(FieldError::finding("columns", defect, remedy).in_file(file).into());
         }
         Ok(measured)
     }

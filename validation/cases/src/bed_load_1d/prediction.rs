@@ -79,7 +79,7 @@ impl BedLoadFlume {
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        let refused = |field, value: f64, rule, remedy| Err(ParameterError::field(field, value, rule, remedy));
+        let refused = |field, value: f64, rule: &str, remedy| Err(ParameterError::field(field, value, rule, remedy));
         if !(2.0..=1000.0).contains(&(self.depth / self.grain_diameter)) {
             return refused("depth", self.depth, "2 to 1000 grain diameters", "give both in metres: 0.002 for 2 mm");
         }
@@ -87,11 +87,14 @@ impl BedLoadFlume {
             let remedy = "widen the flume or reduce the depth: otherwise the walls carry most of the stress";
             return refused("width", width, "at least the depth of the water", remedy);
         }
-        if self.layer(1.0, Closures::default()).checked().is_err() {
-            let remedy = "run a scene instead: steeper beds move as debris flows";
-            return refused("slope", self.slope, "a slope on which a bed of 8 grains does not slide", remedy);
+        let layer = self.layer(1.0, Closures::default());
+        let limit = layer.stream().sliding_slope(&layer.closures);
+        if self.grain_density > layer.fluid_density && self.slope >= limit {
+            let rule = format!("below {}, at which a bed {BED} grains deep slides as a whole", four_digits(limit));
+            let remedy = "reduce it; a bed that slides is a debris flow, not bed load";
+            return refused("slope", self.slope, &rule, remedy);
         }
-        Ok(())
+        layer.checked()
     }
 
     /// The transport, over so many draws of the closures.

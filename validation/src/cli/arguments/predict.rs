@@ -14,7 +14,8 @@ const COLLAPSE_EXAMPLES: &str = "Example:
   bagnold predict column-planar --law law/law.toml --set half_width=0.08 --set solid_fraction=0.76 --out column
 
 The law holds [material] and [[draws]]. DIR/plan.json receives a digest of law, flow and program before anything runs; the folder
-rejects another plan. u_input is the standard deviation over the draws, u_numerical the difference of both resolutions.
+rejects another plan. u_input is the standard deviation over the draws.
+u_numerical is the difference of both resolutions, or the front's uncertainty from the spacing where that is larger.
 Measurements stand below `run_out [-],run_out uncertainty [-]`, or repeats below `run_out #1 [-],run_out #2 [-]`.";
 
 /// `bagnold predict`
@@ -46,13 +47,13 @@ pub struct CollapseArguments {
     /// Change one parameter of the flow; may be repeated.
     #[arg(long = "set", value_name = "path=value")]
     pub settings: Vec<String>,
-    /// Particles over the half width, or the height on a slope, of the draws; the value has twice as many.
+    /// Particles over the half width (on a slope: over the height) in runs of draws; the predicted value uses twice as many.
     #[arg(long, value_name = "N", default_value = "20", value_parser = clap::value_parser!(u16).range(4..=400))]
     pub resolution: u16,
     /// Number of draws of the law.
     #[arg(long, value_name = "N", default_value = "24", value_parser = clap::value_parser!(u16).range(2..=1000))]
     pub draws: u16,
-    /// Measured collapse, one row.
+    /// CSV table of the measured collapse, with one row.
     #[arg(long, value_name = "FILE.csv")]
     pub measured: Option<PathBuf>,
     /// Folder to write [default: reports/predictions/CASE].
