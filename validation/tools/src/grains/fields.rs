@@ -2,6 +2,8 @@
 
 use super::coarse::{Sums, Window};
 use super::plan::GrainRun;
+use crate::input::FieldError;
+use crate::number::short_digits;
 use crate::output::Table;
 use crate::statistics::Mean;
 use std::collections::BTreeMap;
@@ -16,6 +18,9 @@ pub(super) const POINT: [usize; 3] = [6, 5, 0];
 /// Mass below the core of the layer and below its upper end, over all of it `[-]`.
 const CORE: std::ops::RangeInclusive<f64> = 0.2..=0.8;
 
+/// Range of the contacts' stress over the momentum balance `[-]`; beyond it the plan does not describe the grains.
+const BALANCED: std::ops::RangeInclusive<f64> = 0.7..=1.4;
+
 /// Quantities of a bin, then its stress.
 type Bin = [f64; 16];
 
@@ -28,6 +33,8 @@ pub struct RunFields {
     pub table: Table,
     /// Means of the quantities over the core of the layer, with their standard uncertainties.
     pub core: [(f64, f64); 16],
+    /// Range of the solid fraction of dense flows of spheres, or of discs `[-]`.
+    pub usual_solid_fraction: [f64; 2],
     /// Number of windows.
     pub windows: usize,
     /// Frames, grains, mass and momentum.
@@ -36,6 +43,38 @@ pub struct RunFields {
     pub unsteadiness: f64,
     /// Largest relative difference of mass and momentum of the fields from those of the grains `[-]`.
     pub defect: f64,
+}
+
+impl RunFields {
+    /// Pressure and shear stress of the contacts over those of the momentum balance `[-]`; 1 without contacts.
+    pub(super) fn balance(&self) -> [f64; 2] {
+        [3, 4].map(|k| self.core[k].0 / self.core[k + 4].0)
+    }
+
+    /// Refuses contact stresses that are far from the momentum balance: a slope, load, density or unit of the plan is wrong.
+    pub(super) fn check_balance(&self) -> Result<(), FieldError> {
+        let plans = [
+            (
+                "contacts",
+                "pressure",
+                "check the unit of the forces, the density, and `gravity` or `pressure`; dump all contacts",
+            ),
+            (
+                "slope_angle",
+                "shear stress",
+                "check `slope_angle` or `shear_stress`, and dump the tangential forces too",
+            ),
+        ];
+        for ((field, name, remedy), ratio) in plans.into_iter().zip(self.balance()) {
+            if ratio.is_finite() && !BALANCED.contains(&ratio) {
+                let ratio = short_digits(ratio, 3);
+                let defect =
+                    format!("the contacts bear {ratio} of the {name} of the momentum balance, outside 0.7 to 1.4");
+                return Err(FieldError::finding(field, defect, remedy));
+            }
+        }
+        Ok(())
+    }
 }
 
 impl GrainRun {
@@ -77,6 +116,7 @@ impl GrainRun {
                 rows: bins.iter().map(row).collect(),
             },
             core: std::array::from_fn(|k| (mean(&bins, k), uncertainty(of_windows.iter().map(|own| mean(own, k))))),
+            usual_solid_fraction: if self.width.is_some() { [0.4, 0.7] } else { [0.6, 0.92] },
             windows: windows.len(),
             total: whole.total,
             unsteadiness: (high - low) / speed(&whole),

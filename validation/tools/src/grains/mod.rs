@@ -86,6 +86,7 @@ fn average_run(plan: &GrainPlan, place: usize) -> Result<RunFields, ToolError> {
     let end = |k: usize| k * frames.len() / WINDOWS;
     let windows: Vec<Window> = (0..WINDOWS).map(|k| Window::merged(&frames[end(k)..end(k + 1)])).collect();
     let fields = run.fields(place, &windows, [diameter, density], diameter / BINS);
+    fields.check_balance().map_err(at_run)?;
     let limit = plan.steady_within.unwrap_or(0.1);
     if fields.unsteadiness <= limit {
         return Ok(fields);

@@ -58,12 +58,20 @@ pub fn summary(runs: &[RunFields]) -> String {
         let parts: Vec<String> = parts
             .map(|(name, (value, u))| format!("{name} = {} ± {}", short_digits(value, 4), two_digits(u)))
             .collect();
-        let [pressure, shear] = [3, 4].map(|k| run.core[k].0 / run.core[k + 4].0);
+        let [pressure, shear] = run.balance();
         if pressure.max(shear) - 1.0 > UNBALANCED || 1.0 - pressure.min(shear) > UNBALANCED {
             caution(&format!(
                 "{}: contact stresses are not the momentum balance's; average over a longer time or, where their ratio is far from 1, \
                  correct density, `width`, `length` or the unit of forces",
                 run.name
+            ));
+        }
+        let (solid, [low, high]) = (run.core[POINT[2]].0, run.usual_solid_fraction);
+        if !(low..=high).contains(&solid) {
+            caution(&format!(
+                "{}: the solid fraction {} is outside {low} to {high}, that of dense flows; check `length`, `width` and the radii",
+                run.name,
+                short_digits(solid, 2)
             ));
         }
         let stress = if [pressure, shear] == [1.0, 1.0] {

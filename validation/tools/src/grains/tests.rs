@@ -118,6 +118,10 @@ fn slope_of_lammps_has_the_values_of_its_own_computes() {
     let mut plan = GrainPlan::read(&folder.join("slopes.toml")).expect("a plan");
     plan.path = own.path().join("slopes.toml");
     plan.runs.retain(|run| run.contacts.is_some());
+    let mut steeper = plan.clone();
+    steeper.runs[0].slope_angle = Some(34.0);
+    let refused = average(&steeper).expect_err("another slope").to_string();
+    assert!(refused.contains("`run[0].slope_angle`: the contacts bear 0.6"), "{refused}");
     let run = average(&plan).expect("averaged").remove(0);
     let at = |y: f64, column: usize| {
         let after = run.table.rows.partition_point(|row| row[0] < y);
