@@ -73,7 +73,7 @@ impl ColumnSource {
                 "convert the column: this case defines no r_0 and t_0".to_owned()
             } else {
                 let scaled = if scales.is_some() { "r0 or t0 of the column, or " } else { "" };
-                format!("give such as {scaled}cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes")
+                format!("give a unit such as {scaled}cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes")
             };
             FieldError::new(field, format!("[{}]", self.unit()), &rule, &remedy)
         })
@@ -109,7 +109,7 @@ mod tests {
             parse("\"t [s]\"").expect("a heading").factor(&ExternalColumn::new("x", "m", "place"), "columns.x", None);
         assert_eq!(
             wrong.expect_err("not a length").to_string(),
-            "`columns.x` is [s], but must be a unit that converts to m; give such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes"
+            "`columns.x` is [s], but must be a unit that converts to m; give a unit such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes"
         );
     }
 
@@ -131,8 +131,7 @@ mod tests {
         let message = |text, scales| factor(text, "m", scales).expect_err("no length").to_string();
         let without = "`columns.x` is [r0], but must be a unit that converts to m; convert the column: this case defines no r_0 and t_0";
         assert!(message("\"x [r0]\"", None).starts_with(without), "{}", message("\"x [r0]\"", None));
-        let wrong =
-            "`columns.x` is [t0], but must be a unit that converts to m; give such as r0 or t0 of the column, or cm";
+        let wrong = "`columns.x` is [t0], but must be a unit that converts to m; give a unit such as r0 or t0 of the column, or cm";
         assert!(message("\"x [t0]\"", scales).starts_with(wrong));
     }
 }

@@ -6,13 +6,13 @@ mod place;
 mod reading;
 
 pub use column::ColumnSource;
-pub use place::{HALF_A_ROW, coarse_in_words};
+pub use place::{COARSE, HALF_A_ROW, coarse_in_words};
 pub use reading::WantedColumns;
 
 use crate::case::{CaseResult, ParameterError, PreparedCase};
 use crate::evidence::NumberColumn;
 use crate::input::{FieldError, MeasuredFiles};
-use crate::metric::{Confidence, Limit, Metric, MetricKind, Variant};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Origin, Variant};
 use crate::number::four_digits;
 use place::{CurveResidual, MatchingPanel};
 use serde::{Deserialize, Serialize};
@@ -193,6 +193,7 @@ impl Measurements {
         let metric = Metric::observed("overlay_residual", &variant, curve.residual, "-")
             .against(Some(0.0), &self.source(), confidence)
             .remarked(remarks.reduce(|all, own| format!("{all}; {own}")))
+            .known_to(Origin::Numerical, Some(curve.by_resolution), COARSE)
             .of_kind(MetricKind::Validation);
         let (limit, reason) = self.limit().unzip();
         metric.gated_by(limit, &reason.unwrap_or_default()).of_user()

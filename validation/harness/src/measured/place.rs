@@ -12,6 +12,9 @@ use std::collections::BTreeSet;
 /// Label of the band of a front whose section is half a row of particles more or less: its resolution.
 pub const HALF_A_ROW: &str = "half a row of particles more or less";
 
+/// Source of the uncertainty of a residual that half a row reduces: a gate that passes by it alone is inconclusive.
+pub const COARSE: &str = "half a row of particles in place of smaller uncertainties of the measurement";
+
 /// A panel with the axes of the measurements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MatchingPanel {
@@ -32,6 +35,8 @@ pub(super) struct CurveResidual {
     pub(super) label: String,
     /// Root mean square of (curve − measurement)/uncertainty where the curve has a value `[-]`; not a number where it has none.
     pub(super) residual: f64,
+    /// Reduction of the residual by the curve's resolution, where it counts in place of smaller uncertainties `[-]`.
+    pub(super) by_resolution: f64,
     /// Measurements at which it has one.
     pub(super) compared: usize,
     /// Remark on uncertainties that are smaller than the curve's resolution.
@@ -122,8 +127,10 @@ impl MatchingPanel {
             let band = panel.bands.iter().find(|band| band.label == HALF_A_ROW);
             let resolution: Vec<(f64, f64)> = band.iter().flat_map(|band| &band.points).map(half).collect();
             let (residual, points) = self.residual(measurements, &series.points, &resolution)?;
+            let by_resolution = self.residual(measurements, &series.points, &[])?.0 - residual;
             let coarse = coarse_in_words(&points, parted(&panel.y.label).1);
-            Some(CurveResidual { label: series.label.clone(), residual, compared: points.len(), coarse })
+            let label = series.label.clone();
+            Some(CurveResidual { label, residual, by_resolution, compared: points.len(), coarse })
         };
         let curves: Vec<CurveResidual> = series.iter().filter_map(residual).collect();
         if curves.is_empty() {

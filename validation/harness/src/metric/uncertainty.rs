@@ -110,12 +110,12 @@ impl Uncertainty {
         root_of_squares(self.parts.iter())
     }
 
-    /// The same of the parts of these origins.
+    /// Root of the sum of squares of the parts with these origins, in the metric's unit.
     pub fn of(&self, origins: &[Origin]) -> Option<f64> {
         root_of_squares(self.parts.iter().filter(|part| origins.contains(&part.origin)))
     }
 
-    /// The same of what belongs to a part of a comparison.
+    /// Root of the sum of squares of the parts u_num, u_input or u_D of a comparison, in the metric's unit.
     pub fn of_part(&self, part: ComparisonPart) -> Option<f64> {
         self.of(part.origins())
     }
@@ -139,7 +139,8 @@ impl Uncertainty {
         self.parts.push(UncertaintyComponent { origin, standard: 0.0, source: source.to_owned() });
     }
 
-    pub(super) fn add(&mut self, origin: Origin, standard: Option<f64>, source: &str) {
+    /// Adds a part; nothing where it is unknown or not positive.
+    pub fn add(&mut self, origin: Origin, standard: Option<f64>, source: &str) {
         if let Some(standard) = standard.filter(|standard| standard.is_finite() && *standard > 0.0) {
             self.parts.push(UncertaintyComponent { origin, standard, source: source.to_owned() });
         }

@@ -6,8 +6,8 @@ use super::probe::{self, ColumnWindow, RunCurve};
 use super::{Study, file};
 use crate::case::CaseResult;
 use crate::input::FieldError;
-use crate::measured::coarse_in_words;
-use crate::metric::{Metric, Uncertainty, Value, Variant};
+use crate::measured::{COARSE, coarse_in_words};
+use crate::metric::{Metric, Origin, Uncertainty, Value, Variant};
 use crate::statistics::{grouped, log_log_slope};
 use bagnold_number::four_digits;
 
@@ -91,7 +91,10 @@ impl Study {
                         };
                         let rows = curve.beside_rows(&points, column.window, *distance);
                         let coarse = coarse_in_words(&rows, probe::unit_of(&column.column));
-                        let reading = Reading::of_column(of_run(&curve.run), value, unit, column, curve);
+                        let bare = RunCurve { resolution: Vec::new(), ..curve.clone() };
+                        let by_resolution = bare.distance(&points, column.window, *distance) - value;
+                        let mut reading = Reading::of_column(of_run(&curve.run), value, unit, column, curve);
+                        reading.uncertainty.add(Origin::Numerical, Some(by_resolution), COARSE);
                         readings.push(Reading { remark: reading.remark.clone().or(coarse), ..reading });
                     }
                 }
