@@ -27,6 +27,13 @@ pub enum NewCrate {
     Law(Named),
     /// Write a crate with a case.
     Case(Named),
+    /// Refused with the command that writes a scene.
+    #[command(hide = true)]
+    Scene {
+        /// All that follows.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        ignored: Vec<String>,
+    },
 }
 
 /// Name and folder of a new crate.

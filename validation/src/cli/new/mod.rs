@@ -6,6 +6,7 @@ use super::arguments::{NewArguments, NewCrate};
 use super::error::ProgramError;
 use super::{Exit, Session};
 use crate::case::ParameterError;
+use crate::input::FieldError;
 use crate::output::FileError;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -38,6 +39,10 @@ pub(super) fn new(command: &NewArguments, session: &mut Session<'_>) -> Result<E
     let (asked, templates) = match &command.what {
         NewCrate::Law(asked) => (asked, LAW),
         NewCrate::Case(asked) => (asked, CASE),
+        NewCrate::Scene { .. } => {
+            let remedy = "write one with `bagnold show scene > scene.toml` and run it with `bagnold run scene.toml`";
+            return Err(ParameterError::from(FieldError::finding("scene", "a scene needs no crate", remedy)).into());
+        }
     };
     name::check(&asked.name, &command.what).map_err(ParameterError::from)?;
     let folder = asked.out.clone().unwrap_or_else(|| PathBuf::from(&asked.name));

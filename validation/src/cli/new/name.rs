@@ -42,7 +42,7 @@ pub(super) fn check(name: &str, what: &NewCrate) -> Result<(), FieldError> {
     if !begins || !name.chars().all(is_plain) || name.ends_with(['-', '_']) || name.len() > LONGEST {
         return refused(
             "a crate's name of at most 64 lower-case letters, digits and hyphens that begins with a letter",
-            "choose such as my-law",
+            "choose a name such as my-law",
         );
     }
     let kebab = name.replace('_', "-");
