@@ -76,9 +76,11 @@ fn reason(fate: &ElementOutcome<'_>) -> String {
     match (&fate.element.not_covered, fate.status) {
         (Some(reason), _) => reason.clone(),
         (None, Status::NotCovered) => {
-            "the metric or run for this element is not part of this tier, or not judged".to_owned()
+            "the metric or run of this element is not part of this tier, or is not judged".to_owned()
         }
-        _ if !names.is_empty() => format!("negative controls reproduce this as well: {}", names.join(", ")),
+        (None, Status::NotShown) if !names.is_empty() => {
+            format!("negative controls (faulty runs) also reproduce this: {}", names.join(", "))
+        }
         (None, Status::NotShown) if !fate.falls => "no negative control makes this element fail".to_owned(),
         (None, Status::NotShown) => "the uncertainty exceeds the printed range or the limit".to_owned(),
         _ => String::new(),
@@ -127,9 +129,9 @@ fn range(printed: Printed, unit: &str) -> String {
         (None, high) => format!("≤ {}", with_unit(high.unwrap_or(f64::INFINITY), unit)),
     };
     match printed.value {
-        Some(_) if low == high => format!("the paper {range}"),
-        Some(value) => format!("the paper {}, our tolerance {range}", with_unit(value, unit)),
-        None => format!("our reading {range}"),
+        Some(_) if low == high => format!("paper: {range}"),
+        Some(value) => format!("paper: {}, our tolerance: {range}", with_unit(value, unit)),
+        None => format!("required by our interpretation of the paper: {range}"),
     }
 }
 
