@@ -5,8 +5,9 @@ use super::judgement::{JudgedCase, Judgement, KINDS, Tally};
 use super::power::rejected_inputs;
 use super::view::VerdictMark;
 use super::{CaseReport, DrawnFigure};
+use crate::evidence::StatedUncertainty;
 use crate::figure::Figure;
-use crate::metric::{Metric, Origin, Variant};
+use crate::metric::{COVERAGE, Metric, Origin, Variant};
 use crate::number::two_digits;
 use serde_json::{Value, json};
 
@@ -19,7 +20,7 @@ struct Flow {
 }
 
 /// A sentence with the `{range}` and the `{number}` of the values of a metric, `{half}` of the widest bracket that they are the middle of,
-/// and the `{works}` that they are compared with.
+/// the `{wide}` largest relative uncertainty of 95 %, and the `{works}` that they are compared with.
 struct Claim {
     case: &'static str,
     metric: &'static str,
@@ -48,13 +49,27 @@ const FLOWS: [Flow; 4] = [
             metric: "velocity_l2",
             of: |_| true,
             value: |metric| metric.value,
-            says: "Velocity profiles differ by {range} % (L2) from the exact solution of the same law; no experiment is involved (slopes: {number}).",
+            says: "Velocity profiles of two materials differ by {range} % (L2) from the exact solution of the same law; no experiment is involved (runs: {number}).",
         }],
     },
     Flow {
-        title: "Slopes at which layers stop",
-        figures: &[("flow-thickness", "start-stop")],
+        title: "Layers on slopes",
+        figures: &[("fed-slope", "thickness-over-slope"), ("flow-thickness", "start-stop")],
         claims: &[
+            Claim {
+                case: "fed-slope",
+                metric: "thickness_behind_front",
+                of: |_| true,
+                value: over_reference,
+                says: "Layers that start from the exact front of the same law stay {range} times as thick behind it; no experiment is involved (slopes: {number}).",
+            },
+            Claim {
+                case: "fed-slope",
+                metric: "front_speed",
+                of: |_| true,
+                value: over_reference,
+                says: "Their fronts move at {range} of the exact speed.",
+            },
             Claim {
                 case: "flow-thickness",
                 metric: "experimental_excess",
@@ -84,6 +99,13 @@ const FLOWS: [Flow; 4] = [
             },
             Claim {
                 case: "column-planar",
+                metric: "final_height",
+                of: |variant| has(variant, "material=sand"),
+                value: over_reference,
+                says: "Their deposits are {range} times as high as by that fit.",
+            },
+            Claim {
+                case: "column-planar",
                 metric: "kinetic_energy",
                 of: |_| true,
                 value: over_reference,
@@ -100,7 +122,7 @@ const FLOWS: [Flow; 4] = [
                 metric: "transport_ratio",
                 of: |variant| has(variant, "start=rest"),
                 value: |metric| metric.value,
-                says: "A 1-D layer of dilating grains transports {range} times the rate by the dashed fit of {works} (slopes: {number}).",
+                says: "A 1-D continuum of dilating grains, without particles, transports {range} times the rate by the dashed fit of {works} (slopes: {number}). The inputs make these ratios uncertain by up to ± {wide} % (two standard uncertainties).",
             },
             Claim {
                 case: "bed-load",
@@ -139,8 +161,12 @@ fn panel(flow: &Flow, judgement: &Judgement<'_>, drawn: &[Vec<DrawnFigure>], sma
     });
     let (figure, small) = first?;
     let all = comparisons(report);
-    let compared: Vec<&Comparison<'_>> =
-        all.iter().flat_map(|(_, own)| own).filter(|own| cases.iter().any(|case| case.name == own.case)).collect();
+    // a run that shows what an input does is no comparison of its own
+    let is_altered = |own: &&Comparison<'_>| {
+        StatedUncertainty::of(own.case).is_some_and(|stated| stated.is_altered(&own.metric.variant))
+    };
+    let compared = all.iter().flat_map(|(_, own)| own).filter(|own| cases.iter().any(|case| case.name == own.case));
+    let compared: Vec<&Comparison<'_>> = compared.filter(|own| !is_altered(own)).collect();
     Some(json!({
         "title": flow.title,
         // the whole figure, whose files are linked, and its first panel
@@ -163,7 +189,13 @@ fn sentence(claim: &Claim, cases: &[&CaseReport]) -> Option<String> {
     let mut works: Vec<&str> =
         own.iter().filter_map(|metric| metric.reference.as_ref()?.source.split(',').next()).collect();
     works.dedup();
-    let says = claim.says.replace("{range}", &range).replace("{half}", &decimals(3.0_f64.sqrt() * known));
+    let relative = own.iter().filter_map(|metric| Some(COVERAGE * metric.uncertainty.standard()? / metric.value.abs()));
+    let wide = two_digits(100.0 * relative.fold(0.0, f64::max));
+    let says = claim
+        .says
+        .replace("{range}", &range)
+        .replace("{half}", &decimals(3.0_f64.sqrt() * known))
+        .replace("{wide}", &wide);
     Some(says.replace("{works}", &works.join(" and ")).replace("{number}", &own.len().to_string()))
 }
 
@@ -204,7 +236,7 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport], judgement: &Judg
         }
     }
     if all == 0 {
-        add(VerdictMark::OBSERVED, "no comparison has a known uncertainty".to_owned());
+        add(VerdictMark::OBSERVED, "no published result with a stated uncertainty is compared here".to_owned());
     }
     let is_own = |judged: &JudgedCase<'_>| cases.iter().any(|case| case.name == judged.case.name);
     for (kind, name) in &KINDS[..3] {

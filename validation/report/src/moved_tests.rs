@@ -83,7 +83,7 @@ fn an_earlier_report_is_a_baseline() {
     std::fs::create_dir_all(&place).expect("folder");
     let cases = ["film".to_owned(), "bagnold".to_owned()];
     let read = |tier| Baseline::of_report(folder.path(), &cases, tier);
-    assert!(read(Tier::Quick).is_err_and(|error| error.to_string().contains("none of the cases")));
+    assert!(read(Tier::Quick).is_err_and(|error| error.to_string().contains("no results of the selected cases")));
     let entry = |metric: &Metric| serde_json::to_value(crate::result::MetricEntry::from(metric)).expect("serialises");
     let document = serde_json::json!({
         "case": "film", "tier": "quick", "state_hash": "", "runs": [],

@@ -36,13 +36,17 @@ pub(super) fn render(
     fill("index.html", &page)
 }
 
-/// Number of elements of both papers by status, in words; none without papers.
+/// Number of reproduced elements of both papers, in words; none without papers.
 fn papers(judgement: &Judgement<'_>) -> Option<String> {
-    let of = |status: Status| judgement.papers.iter().map(|account| account.count(status)).sum::<usize>();
-    let all: usize = Status::ALL.into_iter().map(of).sum();
-    let words = |status: Status| format!("{} {}", of(status), status.word());
-    let others: Vec<String> = Status::ALL.into_iter().skip(1).map(words).collect();
-    (all > 0).then(|| format!("{} of {all} elements reproduced, {}", of(Status::Reproduced), others.join(", ")))
+    let fates = || judgement.papers.iter().flat_map(|account| &account.elements);
+    let (all, tested) = (fates().count(), fates().filter(|fate| fate.rests_on_tests()).count());
+    let reproduced = fates().filter(|fate| fate.status == Status::Reproduced).count();
+    let by_results = reproduced - tested;
+    (all > 0).then(|| {
+        format!(
+            "{reproduced} of {all} elements reproduced ({by_results} by results of runs, {tested} by tests of equations and inputs alone)"
+        )
+    })
 }
 
 /// Fills the template of the page of all gates.

@@ -96,7 +96,7 @@ fn a_reason_stands_on_the_page_of_its_case_only() {
     for text in [&overview, &page] {
         assert!(
             text.contains("0.9\u{202f}%, limit ≤ 0.7\u{202f}%</span>")
-                && text.contains("<span class=\"note\">Expected since 2025-01-31")
+                && text.contains("<span class=\"note\">Expected failure since 2025-01-31")
         );
     }
     assert!(!overview.contains("two attempts"));
@@ -151,7 +151,7 @@ fn the_first_page_opens_with_a_panel_for_each_flow_that_the_report_has() {
     let page = overview_of(&cases);
     assert_eq!(page.matches("<section class=\"flow\"").count(), 4);
     assert!(page.find("<section class=\"flow\"") < page.find("<table"));
-    assert!(page.contains("Velocity profiles differ by 0.25 % (L2) from"));
+    assert!(page.contains("Velocity profiles of two materials differ by 0.25 % (L2) from"));
     assert!(
         page.contains("Columns of sand on a plane run out 1.10 times as far as by the fit of an experiment")
             && page.contains("(columns: 1)")
