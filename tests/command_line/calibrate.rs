@@ -328,7 +328,7 @@ fn choices_that_set_nothing_are_refused() {
     };
     assert_eq!(
         refusal("film = [\"material.viscosity=1.0\"]", "flim = [\"material.viscosity=1.0\"]"),
-        "error: plan.toml: `choices[1].set` is flim, but must be a case that has data; did you mean `film`?"
+        "error: plan.toml: `choices[1].set` is flim, but must be a case with data in `fit` or `hold_out`; did you mean `film`?"
     );
     assert_eq!(
         refusal("material.viscosity=1.0", "material.viscoscity=1.0"),

@@ -148,7 +148,7 @@ fn a_crate_is_written_into_a_new_folder_under_a_name_that_it_can_have() {
     assert_eq!(
         refusal(&["new", "law", "My law"]),
         "error: `NAME` is \"My law\", but must be a crate's name of at most 64 lower-case letters, digits and hyphens that \
-         begins with a letter; choose such as my-law\n"
+         begins with a letter; choose a name such as my-law\n"
     );
     assert!(place.names().is_empty(), "nothing was written");
     std::fs::create_dir(place.path("notes")).expect("writable");

@@ -118,7 +118,7 @@ impl Figure {
         Self { name: name.to_owned(), caption: caption.to_owned(), panels, columns }
     }
 
-    /// The same panels, so many a row.
+    /// Places the panels in this number of columns.
     pub fn in_columns(self, columns: usize) -> Self {
         Self { columns, ..self }
     }

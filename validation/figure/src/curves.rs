@@ -24,7 +24,7 @@ pub(super) struct Plot {
 }
 
 impl Plot {
-    /// The place of a value pair; `None` where one of them has none.
+    /// Position `[px]` of a value pair; `None` where a value is not on its axis.
     pub(super) fn place(&self, (x, y): (f64, f64)) -> Option<Point> {
         Some((self.x.pixel(x)?, self.y.pixel(y)?))
     }

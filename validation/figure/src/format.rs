@@ -39,7 +39,7 @@ impl Default for FigureFormat {
 impl FigureFormat {
     /// For a page that shows the figure 800 px wide.
     pub const SCREEN: Self = Self { sheet: SCREEN_WIDTH, scale: 1.0, paper: None };
-    /// The same with half of the pixels, which an animation has.
+    /// Screen format with half of the pixels, used by animations.
     pub const HALF: Self = Self { scale: 0.5, ..Self::SCREEN };
     /// For a page that shows the figure about 300 px wide, with letters of the usual size.
     pub const SMALL: Self = Self { sheet: 640.0, scale: 1.0, paper: None };
@@ -55,7 +55,7 @@ impl FigureFormat {
         (self.sheet * self.scale).round()
     }
 
-    /// As many of the wanted columns of panels as fit beside each other.
+    /// Number of columns of panels that fit on the format, at most the wanted number.
     pub(super) fn columns(self, wanted: usize) -> usize {
         wanted.min((self.sheet / NARROWEST_COLUMN) as usize).max(1)
     }

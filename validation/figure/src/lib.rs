@@ -146,7 +146,7 @@ pub struct Field {
     pub limits: Option<(f64, f64)>,
 }
 
-/// One coordinate system with what is drawn in it.
+/// One coordinate system and the series, bands and marks drawn in it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Panel {
     /// Title, may be empty.

@@ -49,7 +49,7 @@ pub(super) fn shape(slot: usize) -> &'static [(f64, f64)] {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ColourMap(&'static [RGBColor; 10]);
 
-/// Viridis (van der Walt and Smith 2015), the map of all fields that stand alone.
+/// Viridis (van der Walt and Smith 2015), the colour map of a single field.
 pub(super) const FIRST: ColourMap = ColourMap(&VIRIDIS);
 /// Inferno (the same authors), for a second field beside it: no hue is in both except the yellow end.
 pub(super) const SECOND: ColourMap = ColourMap(&INFERNO);

@@ -24,7 +24,7 @@ pub(super) struct Margins {
 }
 
 impl Margins {
-    /// The larger of both on every side.
+    /// Margins with the larger value of both on each side.
     pub(super) fn union(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -46,7 +46,7 @@ pub(super) struct ScaledPanel<'p> {
     opposite: Option<ColourScale>,
     /// A colour bar of its own stands right of the plot.
     has_bar: bool,
-    /// Numbers and label stand under the horizontal axis, and not under that of a panel below.
+    /// Whether numbers and label are drawn under the horizontal axis of this panel, not of the panel below.
     pub(super) has_x_numbers: bool,
     legend: Legend,
     legend_place: LegendPosition,

@@ -85,7 +85,7 @@ pub(super) struct Mapping {
 }
 
 impl Mapping {
-    /// The pixel of `value`; `None` where it has no place on the axis.
+    /// Pixel position of `value`; `None` for a value outside the domain of the axis.
     pub(super) fn pixel(&self, value: f64) -> Option<f64> {
         if !drawable(value, self.scale) {
             return None;

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
-/// Width and height of a PNG or GIF `[px]`, as its first bytes say; nothing for anything else.
+/// Width and height of a PNG or GIF `[px]`, read from its header; `None` for other files.
 pub fn size_of(picture: &Path) -> Option<(u32, u32)> {
     let mut start = [0; 24];
     std::fs::File::open(picture).ok()?.read_exact(&mut start).ok()?;

@@ -5,7 +5,8 @@ use std::fmt::Write;
 
 const HEAD: &str = "panel,x_axis,y_axis,drawn_as,label,curve,x,y,error,lower,upper,value\n";
 
-/// The table of a figure, with an empty cell for what is not a number: series with the half height of their error bars, bands with their edges, particles with their scalar.
+/// Table of the data of a figure, with an empty cell for values that are not finite: series with the half height of their error bars,
+/// bands with their edges, particles with their scalar.
 pub fn csv(figure: &Figure) -> String {
     let mut text = HEAD.to_owned();
     for (place, panel) in figure.panels.iter().enumerate() {

@@ -142,7 +142,7 @@ impl Baseline {
         Self::parse(&path, &text, case, tier)
     }
 
-    /// The values of `case` that the program carries; none where there are none.
+    /// Baseline values of `case` that the program contains; empty without such values.
     ///
     /// # Errors
     /// If they are malformed, which a test excludes.

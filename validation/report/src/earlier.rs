@@ -39,7 +39,7 @@ impl Baseline {
             }
         }
         if !found {
-            return Err(refused(&folder.join("cases"), "none of the cases is there").into());
+            return Err(refused(&folder.join("cases"), "no results of the selected cases").into());
         }
         Ok(baseline)
     }

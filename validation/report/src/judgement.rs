@@ -124,13 +124,13 @@ impl<'r> JudgedMetric<'r> {
                 let best = if now == best { String::new() } else { format!(" (best {best})") };
                 let tried =
                     if entry.tried.is_empty() { String::new() } else { format!(" Tried: {}", entry.tried.trim()) };
-                format!("Expected since {}{best}, {}: {}{tried}", entry.date, entry.kind.words(), entry.reason)
+                format!("Expected failure since {}{best}, {}: {}{tried}", entry.date, entry.kind.words(), entry.reason)
             }
             ListStatus::PassesAgain(_) => {
                 "Listed as an expected failure, but the gate passes: remove the entry.".to_owned()
             }
             ListStatus::Worse(entry) => {
-                format!("Expected since {}, but worse than its best value {}.", entry.date, best(entry.best_value))
+                format!("Expected failure since {}, but worse than its best, {}.", entry.date, best(entry.best_value))
             }
             ListStatus::WithoutGate(_) => {
                 "Listed as an expected failure, but no such gate exists: remove the entry.".to_owned()
@@ -139,8 +139,8 @@ impl<'r> JudgedMetric<'r> {
     }
 }
 
-/// One case, judged; metrics with the worst first, then those that a page opens with, then the user's own gates before those of the case, what is measured
-/// against before the run's own account, those of one name together.
+/// One judged case. Metrics: the worst first, then those that open a page, then gates of the user before those of the case, comparisons
+/// before the balances of the run, metrics of one name together.
 #[derive(Debug, Clone)]
 pub struct JudgedCase<'r> {
     /// The case.
@@ -184,7 +184,7 @@ impl<'r> JudgedCase<'r> {
         }
     }
 
-    /// Its gates, with those of the baseline that it does not judge.
+    /// Gates of the case, including gates of the baseline that this run does not judge.
     pub fn tally(&self) -> Tally {
         let gone = self.case.not_judged.iter().map(|_| Severity::NotJudged);
         Tally(self.metrics.iter().filter_map(|judged| judged.severity).chain(gone).collect())

@@ -11,7 +11,7 @@ use std::io::Read;
 use std::path::Path;
 use std::time::Duration;
 
-/// Refuses a file that exists and holds anything but verdicts, such as the input of the command.
+/// Rejects an existing file that is not JUnit XML, such as the input of the command.
 ///
 /// # Errors
 /// That file.
@@ -22,7 +22,7 @@ pub fn check_junit(path: &Path) -> Result<(), FieldError> {
     if read.is_ok() && (head.is_empty() || String::from_utf8_lossy(&head).contains("<testsuites")) {
         return Ok(());
     }
-    let remedy = "name another file: its contents would be lost";
+    let remedy = "name another file: this one would be overwritten";
     Err(FieldError::new("--junit", path.display(), "a new file, or an earlier JUnit XML file", remedy))
 }
 

@@ -101,7 +101,7 @@ pub struct Report {
     pub expected_failures: ExpectedFailures,
     /// Those of them that no study measures, at any tier.
     pub listed_in_vain: Vec<MetricKey>,
-    /// The papers whose elements are accounted for; none for no page of them.
+    /// Papers whose elements the report lists; empty for no page of papers.
     pub papers: &'static [Paper],
     /// The options whose coverage is shown; none for no page of them.
     pub features: Option<Features>,
@@ -153,7 +153,7 @@ impl ReportProvenance {
     }
 }
 
-/// One case of a report: its result, and what the report adds to it.
+/// One case of a report: its result and the data that the report adds.
 #[derive(Debug, Clone)]
 pub struct CaseReport {
     /// The finished case.

@@ -91,7 +91,7 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Opti
     })
 }
 
-/// The table of what has moved.
+/// Table of the values that moved from the baseline.
 pub(super) fn table(judgement: &Judgement<'_>) -> Value {
     let against = match &judgement.report.against {
         Some(folder) => format!("the report in {folder}"),

@@ -86,7 +86,7 @@ pub struct Ended<'r> {
     pub name: &'r RunName,
     /// The run.
     pub run: &'r RunSummary,
-    /// Not reproduced where it diverged, whether the case declares that or not; else none, for an end shows nothing.
+    /// "Not reproduced" for a run that diverged, declared or not; `None` otherwise, because finishing shows nothing.
     pub status: Option<Status>,
 }
 
@@ -118,7 +118,7 @@ pub struct ElementOutcome<'r> {
     pub shown: Vec<Shown<'r>>,
     /// The runs of this report that it names.
     pub ended: Vec<Ended<'r>>,
-    /// Controls that it is meant to feel and stands under, by case and name.
+    /// Controls that should reject the element but do not, by case and name.
     pub accepts: Vec<(&'r str, &'r str)>,
     /// Whether a control makes it fall by a value; tests have controls of their own.
     pub falls: bool,
@@ -212,7 +212,7 @@ pub struct PaperSummary<'r> {
 }
 
 impl<'r> PaperSummary<'r> {
-    /// The account of a paper by the metrics of these cases.
+    /// Status of every element of a paper, from the metrics of these cases.
     pub fn of(paper: &'r Paper, cases: &'r [CaseReport]) -> Self {
         Self { paper, elements: paper.elements.iter().map(|element| ElementOutcome::of(element, cases)).collect() }
     }
@@ -223,7 +223,7 @@ impl<'r> PaperSummary<'r> {
     }
 }
 
-/// The papers that a report of these cases accounts for: none where no element names any of the cases.
+/// Papers with elements that name at least one of the cases.
 pub fn accounted(cases: &[CaseReport]) -> &'static [Paper] {
     let is_named = |case: &CaseReport| {
         let elements = PAPERS.iter().flat_map(|paper| &paper.elements);

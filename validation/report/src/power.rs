@@ -48,7 +48,7 @@ fn is_rejected(controls: &[ControlTrial], metric: &Metric) -> bool {
     answers.any(|answer| matches!(answer, Answer::Rejects | Answer::NotJudged))
 }
 
-/// The controls of a case and what its gates say of them; none where there are none.
+/// Table of the negative controls of a case and the verdicts of its gates; `None` without controls.
 pub(super) fn table(case: &CaseReport) -> Option<Value> {
     let (sized, controls): (Vec<_>, Vec<_>) = case.controls.iter().partition(|trial| trial.control.size().is_some());
     let mut rows: Vec<Value> = Vec::new();

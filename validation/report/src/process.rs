@@ -25,7 +25,7 @@ const MOST_MOVED: usize = 10;
 /// Settings of a report, each with the cases that have its field.
 pub type ChangedCases = Vec<(String, Vec<String>)>;
 
-/// What a report is made of, and what is asked of it.
+/// Inputs and options of a report.
 #[derive(Debug, Clone)]
 pub struct ReportRequest {
     /// Heading of the first page.
@@ -80,7 +80,7 @@ pub struct ReportOutcome {
 }
 
 impl ReportRequest {
-    /// Reads the committed values and claims the folder; or says what the report there said, if nothing has changed since.
+    /// Reads the committed values and claims the folder; or returns the outcome of the report there, if nothing has changed since.
     ///
     /// # Errors
     /// Committed values or an earlier report that are malformed, a folder that cannot be written.
@@ -112,7 +112,7 @@ impl ReportRequest {
 }
 
 impl ReportProcess {
-    /// Judges the cases, writes the pages and says what fails.
+    /// Judges the cases, writes the pages and returns the failures.
     ///
     /// # Errors
     /// Files that cannot be written.

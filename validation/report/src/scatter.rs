@@ -38,7 +38,7 @@ pub fn quantities(report: &Report) -> Vec<QuantityBias> {
     quantities_of(report.cases.iter().map(|case| (case.name.as_str(), case.metrics.iter().collect())))
 }
 
-/// The same of the metrics of some cases.
+/// Bias of every quantity, from the metrics of these cases.
 pub fn quantities_of<'a>(cases: impl IntoIterator<Item = (&'a str, Vec<&'a Metric>)>) -> Vec<QuantityBias> {
     type Group = (Vec<(String, Vec<Comparison>)>, usize);
     let mut groups: BTreeMap<(String, String), Group> = BTreeMap::new();
@@ -137,7 +137,7 @@ pub(super) fn rows(quantities: &[QuantityBias], drawn: &[DrawnFigure]) -> Vec<Va
     quantities.iter().enumerate().map(row).collect()
 }
 
-/// The text of the report's `metrics.json`: what its cases say together, with the gates by kind.
+/// Text of the report's `metrics.json`: bias of the quantities and gates by kind.
 pub(super) fn json(judgement: &Judgement<'_>, quantities: &[QuantityBias]) -> String {
     let entry = |of: &QuantityBias| {
         let found = &of.found;

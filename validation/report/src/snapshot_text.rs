@@ -103,7 +103,7 @@ pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.decimals$e}").parse().unwrap_or(value)
 }
 
-/// Half a unit of the last figure: what rounding may have taken from a value of the file.
+/// Half a unit of the last digit: the largest rounding error of a value in the file.
 pub(super) fn rounding(value: f64) -> f64 {
     exponent(value).map_or(0.0, |exponent| 0.5 * 10f64.powi(exponent + 1 - FIGURES))
 }

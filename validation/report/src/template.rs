@@ -21,7 +21,7 @@ const TEMPLATES: [(&str, &str); 15] = [
     ("papers.html", include_str!("template/papers.html")),
 ];
 
-/// Fills one of them.
+/// Fills one template.
 pub(super) fn fill(name: &str, values: &impl Serialize) -> Result<String, minijinja::Error> {
     pages::fill(&TEMPLATES, name, values)
 }

@@ -32,7 +32,7 @@ pub(super) fn inputs(command: &str, places: &CommittedValues) -> Option<String> 
     Some(state_hash(&all))
 }
 
-/// What the report in a folder said, if it was made from the same and lies there as it was written.
+/// Exit code and text of the report in a folder, if its inputs and its files are unchanged.
 pub(super) fn said(out: &Path, inputs: &str) -> Option<(Exit, String)> {
     let made: Made = serde_json::from_str(&fs::read_to_string(out.join(FILE)).ok()?).ok()?;
     let is_whole =
@@ -41,7 +41,7 @@ pub(super) fn said(out: &Path, inputs: &str) -> Option<(Exit, String)> {
     (made.inputs == inputs && made.files.iter().all(is_whole)).then_some((exit, made.text))
 }
 
-/// Keeps in a report's folder what it was made from and what it says.
+/// Records inputs, digests of the files, exit code and text of a report in its folder.
 pub(super) fn keep(folder: &Path, inputs: String, exit: Exit, text: &str) -> io::Result<()> {
     let digest = |path: PathBuf| Ok((path.clone(), state_hash(&fs::read(folder.join(path))?)));
     let files: io::Result<_> = files_below(folder)?.into_iter().map(digest).collect();

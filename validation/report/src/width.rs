@@ -14,7 +14,7 @@ pub(super) fn share_of_gate(metric: &Metric) -> Option<f64> {
     Some(COVERAGE * metric.uncertainty.standard()? / half_width)
 }
 
-/// The bar of a metric; none where nothing is known.
+/// Uncertainty bar of a metric; `None` if no uncertainty is known.
 pub(super) fn width(metric: &Metric) -> Option<Value> {
     let standard = metric.uncertainty.standard().filter(|standard| *standard > 0.0)?;
     let unit = |value: f64| with_unit(value, &metric.unit);

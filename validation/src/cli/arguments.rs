@@ -158,7 +158,7 @@ pub enum Command {
     Judge(JudgeArguments),
     /// Judge the stored results of other codes and write one page.
     League(LeagueArguments),
-    /// Average the grains of a DEM code to fields over the depth and points of a friction law.
+    /// Average the grains of a DEM code to depth profiles, and to points of a friction law.
     Grains(GrainsArguments),
     /// Write the inputs that another code needs to run a case.
     Export(ExportArguments),

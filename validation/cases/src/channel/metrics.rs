@@ -26,7 +26,7 @@ const SNAPSHOT_ERRORS: f64 = 2.0;
 /// Iterations that a solve may take, over those that it is known to take `[-]`.
 const MORE_ITERATIONS: f64 = 1.1;
 
-const ITERATIONS_REASON: &str = "10 % above the known iterations; velocity solves from zero need 1.8, pressure solves without preconditioner 2.4 times as many";
+const ITERATIONS_REASON: &str = "10 % above the measured iterations; velocity started from zero would need 1.8, pressure without preconditioner 2.4 times as many";
 
 impl ChannelObservation {
     /// Mean of a series over the window, with its statistical error; not a number where the run did not get there.
@@ -69,7 +69,7 @@ pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation
         .exactly(0.0, "change of momentum = gravity − friction of the bed, summed over every step")
         .gated(
             Limit::Within(-2e-12, 2e-12),
-            "2e-12: double-precision rounding of 1e-16 per term in ten thousand steps; pairs exchange opposite impulses",
+            "2e-12: double-precision rounding, 1e-16 per term, expected over ten thousand steps; pairs exchange opposite impulses",
         )
         .with_snapshot_tolerance(0.0, 1e-11)
 }

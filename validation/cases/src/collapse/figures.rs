@@ -227,10 +227,10 @@ fn view<const D: usize>(run: &ColumnFlow<D>) -> View {
 /// The animation of every run.
 pub(crate) fn animations<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Animation> {
     let moving = |(run, record): &CollapseRecord<D>| {
-        let section = if D == 3 { " Shown is the section next to a symmetry plane." } else { "" };
+        let section = if D == 3 { " Shown: section next to a symmetry plane." } else { "" };
         let caption = format!(
-            "{}: collapse, coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front (thickness of \
-             0.02 r0). The left half mirrors the simulated right half.{section}",
+            "{}: collapse, coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front (where the \
+             thickness is 0.02 r0). The left half mirrors the simulated right half.{section}",
             label(run)
         );
         animation(&format!("collapse-{}", stem(run)), &caption, &record.data.motion, &view(run))

@@ -76,7 +76,7 @@ impl std::fmt::Display for Tier {
     }
 }
 
-/// A flow with what its run left behind.
+/// A flow and the record of its run.
 pub type RecordOf<F> = (F, Recorded<<F as Flow>::Observation>);
 
 /// A canonical case. Implementors hold no state: everything comes from the flows.

@@ -56,7 +56,7 @@ struct CheckpointFile {
 }
 
 impl Checkpoints {
-    /// The checkpoints of the run with a key, in a folder that is its own; `interval` is that which the user asks for.
+    /// Checkpoints of the run with this key, in a separate folder; `interval` is the one requested by the user.
     pub fn at(folder: &Path, key: &str, interval: Option<Duration>) -> Self {
         let due = Instant::now() + interval.unwrap_or(USUAL_INTERVAL);
         let state = Mutex::new(CheckpointState { left: None, due });

@@ -33,7 +33,7 @@ pub struct Control {
     /// Keys of the runs that the changes need; all where none is named.
     #[serde(default)]
     pub only: Vec<Variant>,
-    /// Whether the changes take too long for a report and stand in the table instead.
+    /// Whether the control is too slow for a report; its result is then read from the committed table.
     #[serde(default)]
     pub in_table: bool,
     /// An error of the solver by its name.

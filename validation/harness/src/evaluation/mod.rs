@@ -24,7 +24,7 @@ use sha2::{Digest, Sha256};
 use std::panic::AssertUnwindSafe;
 use std::path::{Path, PathBuf};
 
-/// A case and what differs from its tier's parameters.
+/// A case and the changes of its tier's parameters.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CaseRequest {
@@ -35,7 +35,7 @@ pub struct CaseRequest {
     pub base: Option<PathBuf>,
     /// Name that distinguishes it from other requests of the same case
     pub name: Option<String>,
-    /// Tier whose parameters fill what `with` leaves out
+    /// Tier that supplies parameters missing in `with`
     pub tier: Option<Tier>,
     /// Files with measurements that its figures are compared with
     #[serde(default)]
@@ -61,7 +61,7 @@ impl CaseRequest {
         self.name.as_deref().unwrap_or(&self.case)
     }
 
-    /// The same with the values of its base, and with the files that it names beside a plan.
+    /// Request with the values of its base file, and with files relative to the plan.
     ///
     /// # Errors
     /// Neither a case nor a base, a file that cannot be read.
@@ -91,7 +91,7 @@ impl CaseRequest {
     }
 }
 
-/// Those of the runs that a plan means by `only`.
+/// Runs that `only` of a plan selects.
 ///
 /// # Errors
 /// Runs that the case does not have.

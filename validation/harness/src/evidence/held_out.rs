@@ -24,7 +24,7 @@ pub struct HeldOutJudgement {
     pub values: Vec<f64>,
     /// Parameters with their 95 % intervals, a sentence each.
     pub parameters: Vec<String>,
-    /// What the fitted data leave open, a sentence each.
+    /// Parameters or combinations that the fitted data do not constrain, one sentence each.
     pub findings: Vec<String>,
     /// The data that were held out.
     pub data: Vec<HeldOutDatum>,

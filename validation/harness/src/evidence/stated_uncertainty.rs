@@ -117,7 +117,7 @@ impl StatedUncertainty {
         STATED.get(case)
     }
 
-    /// Whether a comparison is of a run that is there to show what an input does.
+    /// Whether a comparison belongs to a run that varies an input on purpose.
     pub fn is_altered(&self, variant: &Variant) -> bool {
         self.altered.iter().any(|other| variant.includes(other))
     }
@@ -129,7 +129,7 @@ impl StatedUncertainty {
         self.unknown.iter().find(is_it).map(|own| own.reason.as_str()).or(altered)
     }
 
-    /// Whether something is stated of a part of a comparison without runs: a number, or why there is none.
+    /// Whether a part of a comparison is stated without runs, as a number or as a reason why it is unknown.
     pub fn says(&self, part: ComparisonPart, metric: &Metric) -> bool {
         let is_stated = |own: &StatedPart| own.part == part && concerns(&own.quantities, &own.variant, metric);
         self.parts.iter().any(is_stated) || self.reason(part, metric).is_some()

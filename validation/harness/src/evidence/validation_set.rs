@@ -14,7 +14,7 @@ include!(concat!(env!("OUT_DIR"), "/comparisons.rs"));
 /// Quantities that are the way of a front from where it stood.
 pub const WAY_OF_FRONT: [&str; 2] = ["run_out", "front_displacement"];
 
-/// One of them.
+/// One comparison of a prediction with a reference.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ValidatedComparison {
     /// Name of the case.

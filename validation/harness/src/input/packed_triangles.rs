@@ -11,14 +11,14 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Triangles `[m]` with the text that says them, shared by all copies of the parameters.
+/// Triangles `[m]` and their text encoding, shared by all copies of the parameters.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "String", into = "String")]
 #[schemars(with = "String", inline)]
 pub struct PackedTriangles {
     text: Arc<str>,
     triangles: Arc<[Triangle]>,
-    /// Lower and upper corner of their box `[m]`; none without triangles.
+    /// Lower and upper corner of the bounding box `[m]`; `None` without triangles.
     bounds: Option<[[f64; 3]; 2]>,
     /// `[m²]`
     area: f64,
@@ -41,7 +41,7 @@ impl PackedTriangles {
         &self.triangles
     }
 
-    /// Lower and upper corner of their box `[m]`; none without triangles.
+    /// Lower and upper corner of the bounding box `[m]`; `None` without triangles.
     pub fn bounds(&self) -> Option<[[f64; 3]; 2]> {
         self.bounds
     }

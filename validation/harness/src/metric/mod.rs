@@ -52,7 +52,7 @@ impl Verdict {
         }
     }
 
-    /// That of a word; none of another.
+    /// Confidence with this name; `None` for an unknown name.
     pub fn of_word(word: &str) -> Option<Self> {
         [Self::Pass, Self::Fail, Self::Observed].into_iter().find(|own| own.word() == word)
     }
@@ -75,7 +75,7 @@ pub enum Confidence {
 }
 
 impl Confidence {
-    /// The words for what a file may state of its own values.
+    /// Confidences that a file may state for its values.
     pub const STATED: &'static str = "high, medium, low, unverified";
 
     /// Confidence of one of those words.
@@ -275,14 +275,14 @@ impl Metric {
         self.against(Some(value), source, Confidence::Exact)
     }
 
-    /// Adds a part of what value and reference are known to, as a standard uncertainty in the metric's unit, with the
-    /// sentence that it comes from. What is not known, or is not a positive number, adds nothing.
+    /// Adds a standard uncertainty of value or reference, in the metric's unit, with the sentence that explains it. An unknown
+    /// uncertainty, or one that is not positive, adds nothing.
     pub fn known_to(mut self, origin: Origin, standard: Option<f64>, source: &str) -> Self {
         self.uncertainty.add(origin, standard, source);
         self
     }
 
-    /// Says that a part of what value and reference are known to is known to be nothing beside the others, and why.
+    /// Marks a part of the uncertainty as negligible, with the reason.
     pub fn known_exactly(mut self, origin: Origin, source: &str) -> Self {
         self.uncertainty.add_none(origin, source);
         self
@@ -315,7 +315,7 @@ impl Metric {
         self
     }
 
-    /// Takes its value away where there is a reason why it is not that of a steady state: a gate then does not hold.
+    /// Removes the value if the run is not steady, with the reason; a gate then fails.
     pub fn unless(mut self, not_steady: Option<&String>) -> Self {
         if let Some(reason) = not_steady {
             (self.value, self.remark) = (f64::NAN, Some(reason.clone()));
@@ -323,7 +323,7 @@ impl Metric {
         self
     }
 
-    /// Says why it has no value, or which part of a run its value leaves out.
+    /// Adds the reason of a missing value, or the part of a run that the value omits.
     pub fn remarked(self, remark: Option<String>) -> Self {
         Self { remark, ..self }
     }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A flow's place among flows. What a run does not tell is absent.
+/// Dimensionless numbers of a flow; numbers that a run does not provide are absent.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[must_use]
 pub struct FlowRegime {
@@ -21,7 +21,7 @@ pub struct FlowRegime {
 pub const REGIME_NUMBERS: [&str; 4] = ["a = h/r", "θ [°]", "I", "D/h"];
 
 impl FlowRegime {
-    /// That of a stream of a depth `[m]` on a slope tanθ `[-]`, over grains of a diameter `[m]`.
+    /// Regime of a stream: depth `[m]`, slope tanθ `[-]`, grain diameter `[m]`.
     pub fn of_stream(slope: f64, depth: f64, diameter: f64) -> Self {
         let slope_angle = Some(libm::atan(slope).to_degrees());
         Self { slope_angle, grain_ratio: Some(diameter / depth), ..Self::default() }
@@ -41,7 +41,7 @@ impl FlowRegime {
         [self.aspect_ratio, self.slope_angle, self.inertial_number, self.grain_ratio]
     }
 
-    /// Whether nothing is known of it.
+    /// Whether no number of the regime is known.
     pub fn is_unknown(&self) -> bool {
         self.numbers().iter().all(Option::is_none)
     }

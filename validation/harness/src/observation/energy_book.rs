@@ -20,7 +20,7 @@ pub struct EnergyBook {
     pub dissipated: Vec<(String, f64)>,
     /// Kinetic energy at the start, and energy that inlets have brought up to the last sample.
     pub entered: (f64, f64),
-    /// Work of gravity and of walls from sample to sample, whichever way it went.
+    /// Absolute work of gravity and of walls, summed over the intervals between samples.
     pub exchanged: (f64, f64),
     /// Kinetic energy times the time it was there `[J s]`, in two dimensions `[J s/m]`.
     pub motion: f64,
@@ -82,7 +82,7 @@ impl EnergyBook {
             causes.into_iter().chain(side_walls).map(|(cause, energy)| (cause.to_owned(), energy)).collect();
     }
 
-    /// Largest difference between what the energy has changed by since the start and what the ledger says.
+    /// Largest difference between the change of energy since the start and the sum of the ledger.
     pub fn residual(&self) -> f64 {
         let open: Vec<f64> =
             self.total.iter().zip(&self.explained).map(|(total, explained)| total - explained).collect();

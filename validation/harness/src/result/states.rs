@@ -41,7 +41,7 @@ struct StateOutputProgress {
 }
 
 impl States {
-    /// Those of the runs of a case, in a folder that is there.
+    /// Writers of the states of all runs of a case, in an existing folder.
     pub fn of(case: &dyn PreparedCase, plan: &OutputPlan, folder: &Path) -> Self {
         let run = |run: usize| RunStates {
             folder: folder.to_owned(),

@@ -68,11 +68,11 @@ impl EnergyScale {
 
 /// Largest unexplained share of the work, and of a layer's energy at rest `[%]`; with reasons where they have their own.
 const OPEN: f64 = 0.5;
-const OPEN_AT_REST: (f64, &str) = (1e-3, "0.001 %: a layer at rest does hardly any work; forces change within a step");
+const OPEN_AT_REST: (f64, &str) = (1e-3, "0.001 % of weight times depth, as layers at rest do hardly any work");
 const OPEN_FALL: (f64, &str) =
-    (0.25, "0.25 %: columns up to three radii high leave 0.04 to 0.21 %, as forces change within a step");
+    (0.25, "0.25 % of the largest work: columns up to three radii high leave 0.04 to 0.21 % (measured)");
 const OPEN_STEADY: (f64, &str) =
-    (0.02, "0.02 %: a steadily sheared layer changes little within a step; ten rows leave 0.01 %");
+    (0.02, "0.02 % of the largest work: twice the 0.01 % measured with ten rows under steady shear");
 
 const WORK: &str = "of the largest work: by gravity, by walls, dissipated, or brought in by moving inflow";
 
@@ -90,17 +90,15 @@ const STEPS: f64 = 4.0;
 /// height leave 0.9 to 1.6.
 const STEPS_OF_IMPACT: f64 = 2.0;
 
-const OPEN_REASON: &str = "0.5 %: half of what an error of 1 % in the largest term would leave";
+const OPEN_REASON: &str = "0.5 %: half of the residual that an error of 1 % in the largest work would leave";
 
 /// Largest rise of the energy `[%]` with its reason: of an evenly sheared layer, and of all others.
 const RISE_STEADY: (f64, &str) = (0.002, "0.002 %: without sound waves only rounding can raise the energy");
-const RISE: (f64, &str) = (
-    0.1,
-    "0.1 %: sound waves exchange energy within a period; a collapse behind a lift gate reaches a quarter of this limit",
-);
+const RISE: (f64, &str) =
+    (0.1, "0.1 %: sound waves make the energy oscillate; the largest rise measured, 0.025 %, belongs to a collapse");
 
 const OPEN_REASON_OVER_TIME: &str =
-    "0.5 %, plus time-step errors: 4 Δt/√(H/g) in motion, Δt over the run, two steps per impact";
+    "0.5 % of the largest work, plus time-step errors expected in motion, in impacts and at the end";
 
 /// The residual over a scale.
 pub fn residual(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Metric {

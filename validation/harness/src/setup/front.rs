@@ -22,7 +22,7 @@ pub struct FrontLine<const D: usize> {
     pub section: f64,
     /// The unit vector across it and gravity, and how far from it along that material counts `[m]`; none where all counts.
     pub strip: Option<(Vector<D>, f64)>,
-    /// The unit vector across it to the side on which material counts; none where both count.
+    /// Unit vector normal to the line, towards the side whose material counts; `None` if both sides count.
     pub side: Option<Vector<D>>,
 }
 
@@ -49,7 +49,7 @@ impl<const D: usize> FrontLine<D> {
         Some(Self { side: Some(across), ..self.clone() })
     }
 
-    /// Whether as much as the section stands along more than half of it.
+    /// Whether material of at least the section covers more than half of the line.
     pub fn is_covered(&self, spacing: f64, snapshot: &Snapshot<D>) -> bool {
         let areas = self.areas(spacing, snapshot);
         let covered = areas.iter().filter(|area| **area >= self.section * BIN * spacing);

@@ -19,7 +19,7 @@ pub struct Drawings {
     format: FigureFormat,
 }
 
-/// Identifies what is drawn, by all of its data and the sources of what draws.
+/// Key of a drawing: hash of its data and of the sources of the drawing code.
 #[derive(Debug, Clone)]
 pub struct DrawingKey(Option<String>);
 
@@ -32,7 +32,7 @@ impl Store {
 }
 
 impl Drawings {
-    /// The same place for figures of another format.
+    /// Store of drawings in another format.
     pub fn in_format(self, format: FigureFormat) -> Self {
         Self { format, ..self }
     }

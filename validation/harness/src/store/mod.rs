@@ -105,7 +105,7 @@ impl Store {
         Self { checkpoint_interval: interval, ..self }
     }
 
-    /// The same store where finished runs keep a state near their end.
+    /// Store in which finished runs keep a state near their end.
     #[must_use]
     pub fn with_ends(self) -> Self {
         Self { keeps_ends: true, ..self }

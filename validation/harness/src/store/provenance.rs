@@ -79,7 +79,7 @@ pub fn solver_hash() -> &'static str {
     build().solver_hash
 }
 
-/// Cargo's profile, and how the solver is optimised in it: what drives and judges it is built faster.
+/// Cargo profile, with the optimisation level of the solver; other packages may be optimised less.
 pub fn profile() -> String {
     let Build { profile, solver_opt_level, .. } = build();
     format!("{profile}, solver at opt-level {solver_opt_level}")

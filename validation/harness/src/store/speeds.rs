@@ -49,7 +49,7 @@ impl Speeds {
         }
     }
 
-    /// A command took so many seconds beside the runs of a case.
+    /// Records the time `[s]` that a command took in addition to the runs of a case.
     pub fn learn_beside(&mut self, case: &str, command: &str, seconds: f64) {
         if seconds >= 0.0 && seconds.is_finite() {
             self.cases.entry(case.to_owned()).or_default().beside.insert(command.to_owned(), seconds);
@@ -93,7 +93,7 @@ impl AllSpeeds {
         read_text(&root.join(FILE), DOCUMENT).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
     }
 
-    /// Those of one build.
+    /// Speeds of one build.
     pub fn of(&mut self, build: &str) -> &mut Speeds {
         self.0.entry(build.to_owned()).or_default()
     }

@@ -109,7 +109,7 @@ impl IntervalSide {
         Bracket { inside, failing }
     }
 
-    /// Takes note of an evaluated proposal: where the model disagrees with what was promised, the next step is shorter.
+    /// Records an evaluated proposal; if the model disagrees with the emulator, the next step is shorter.
     pub(super) fn learn(&mut self, region: &Region, place: usize, point: &[f64], rise: Option<f64>) {
         self.proposals.push(place);
         let Some(rise) = rise else { return };

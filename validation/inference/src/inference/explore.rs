@@ -29,7 +29,7 @@ const STRETCH: f64 = 0.2;
 /// Shares of the threshold at which the joint region is checked, inside and outside.
 const EDGE: [f64; 2] = [0.8, 1.25];
 
-/// The region, and what it rests on.
+/// Confidence region, with the emulator and the evaluations behind it.
 #[derive(Debug, Clone)]
 pub struct Explored {
     /// The emulator of the points in and about the region.

@@ -60,7 +60,7 @@ pub struct TooFewSamples {
     pub samples: usize,
 }
 
-/// Mean of a time series of equal intervals and what is known of it.
+/// Mean of a time series of equal intervals, with its statistical error.
 ///
 /// # Errors
 /// For fewer samples than blocks.
@@ -82,7 +82,7 @@ pub fn block_average(series: &[f64]) -> Result<Average, TooFewSamples> {
     }))
 }
 
-/// A statistic of blocks in the order of time, and what is known of it. `statistic` gives the value of all blocks but
+/// Statistic of blocks in time order, with its jackknife error. `statistic` gives the value of all blocks but
 /// those in a range.
 pub fn block_jackknife(blocks: usize, statistic: impl Fn(Range<usize>) -> f64) -> Average {
     let value = statistic(0..0);

@@ -9,7 +9,7 @@ pub struct Segmented {
     pub breaks: Vec<f64>,
     /// Slope of every piece, unit of y over unit of x.
     pub slopes: Vec<f64>,
-    /// Root mean square of what is left, unit of y.
+    /// Root mean square of the residuals, unit of y.
     pub residual: f64,
 }
 

@@ -7,7 +7,7 @@ pub fn student_quantile(confidence: f64, degrees_of_freedom: usize) -> f64 {
     student_quantile_of(confidence, degrees_of_freedom as f64)
 }
 
-/// The same for degrees of freedom that were estimated `[-]`.
+/// Quantile of Student's distribution for estimated, fractional degrees of freedom `[-]`.
 pub fn student_quantile_of(confidence: f64, degrees_of_freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, degrees_of_freedom).map_or(f64::NAN, |student| student.inverse_cdf(0.5 + 0.5 * confidence))
 }

@@ -79,7 +79,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             return Err(problem.into());
         }
         if self.numerics.contact == Contact::None && !(self.walls.is_empty() && self.inlets.is_empty()) {
-            let remedy = format!("leave it out: contact keeps particles in front of walls of {}", S::Wall::FACETS);
+            let remedy = format!("remove it: the default keeps particles in front of walls of {}", S::Wall::FACETS);
             return Err(ParameterError::field("numerics.contact", "none", "\"half-spacing\" with walls", &remedy));
         }
         Ok(())
@@ -181,11 +181,11 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         }
         let (across, along) = self.pulls();
         if across.norm() == 0.0 {
-            let rule = "\"none\" where gravity acts only along periodic sides and presses no material together";
+            let rule = "\"none\" where gravity acts along periodic sides only, because nothing compresses the material";
             return refused(rule, "leave it out");
         }
         if self.lateral_pressure_ratio != 1.0 {
-            let remedy = "leave one of the two out, or give \"settled\"";
+            let remedy = "leave one of the two out, or set `preparation` to \"settled\"";
             return Err(ParameterError::field(
                 "lateral_pressure_ratio",
                 self.lateral_pressure_ratio,

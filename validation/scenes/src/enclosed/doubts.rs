@@ -120,7 +120,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         bodies.chain(walls).chain(inlets).chain(gauges).chain(sides).collect()
     }
 
-    /// Fronts of less than two rows of particles, but for the gauges of the shipped scene, which nobody has asked for.
+    /// Cautions about fronts thinner than two rows of particles; gauges of the shipped scene are exempt.
     pub(super) fn thin_fronts(&self, shipped: &[S::Gauge]) -> impl Iterator<Item = String> {
         let least = LEAST_ROWS * self.spacing;
         self.gauges.iter().zip(self.measures()).filter_map(move |(gauge, measure)| {

@@ -132,7 +132,7 @@ fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &
     let all = panels.len();
     let sheet = |(index, panels): (usize, &[Panel])| {
         let name = if index == 0 { "gauges".to_owned() } else { format!("gauges-{}", index + 1) };
-        let mut caption = "Measurements of the scene's gauges.".to_owned();
+        let mut caption = "Time series of the scene's gauges: one panel for each gauge and quantity.".to_owned();
         if all > PANELS {
             let (first, last) = (index * PANELS + 1, index * PANELS + panels.len());
             caption += &format!(" Panels {first} to {last} of {all}; the tables have all.");

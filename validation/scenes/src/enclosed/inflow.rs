@@ -72,15 +72,14 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             let most = LARGEST_MACH_NUMBER * sound_speed;
             let speed = feed.largest_speed();
             let largest = feed.rate.largest() * most / speed;
-            let rule = format!(
-                "at most {largest:.4}, because inflow at {speed:.4} m/s exceeds {LARGEST_MACH_NUMBER} of the sound speed"
-            );
+            let rate = format!("{} {}", problem.value, S::FLUX_UNIT);
+            let defect =
+                format!("{rate} gives inflow at {speed:.4} m/s, above {LARGEST_MACH_NUMBER} of the sound speed");
             let stiffness = (self.stiffness() * (speed / most).powi(2)).ceil();
             let stiffer =
                 if stiffness <= STIFFEST { format!(", or raise `stiffness` to {stiffness}") } else { String::new() };
-            let remedy = format!("widen the opening{stiffer}");
-            let of_table = if given.field() == "table" { " (SI)" } else { "" };
-            return Err(ParameterError::field(given.field(), format!("{}{of_table}", problem.value), &rule, &remedy));
+            let remedy = format!("give at most {largest:.4}, widen the opening{stiffer}");
+            return Err(ParameterError::field(given.field(), defect, "", &remedy));
         }
         let first = feed.direction() * (0.5 * self.spacing);
         if let Some(cell) = feed.cells.iter().find(|cell| !self.sides.hold(&(*cell + first))) {

@@ -91,7 +91,7 @@ where
             }
             if let Err(divergence) = simulation.step() {
                 let defect = format!("the simulation diverges while the bodies settle ({divergence})");
-                let remedy = "leave it out to see how the start goes wrong";
+                let remedy = "remove `preparation` to see the start of the divergence";
                 return Err(refused_for(&defect, "", remedy));
             }
             let speed = rms_speed(&simulation);
@@ -182,10 +182,11 @@ fn check_held<const D: usize>(
         return Ok(());
     };
     let parts: Vec<String> = starts[index].iter().map(|part| format!("{part:.4}")).collect();
-    let moves = format!("the particle from ({}) m moves more than a spacing ({} m)", parts.join(", "), scene.spacing);
+    let from = parts.join(", ");
+    let moves = format!("particle initially at ({from}) m moves more than a spacing ({} m)", scene.spacing);
     if rest.speed.is_infinite() {
-        let remedy = "support the bodies with walls, or give \"settled\"";
-        return Err(refused_for(&format!("{moves} while the material settles as a liquid"), "", remedy));
+        let remedy = "support the bodies with walls, or set `preparation` to \"settled\"";
+        return Err(refused_for(&format!("{moves} while settling as a liquid"), "", remedy));
     }
     let (across, along) = periods.split(&scene.gravity);
     let mean = ways.iter().sum::<Vector<D>>() / ways.len() as f64;
@@ -194,7 +195,7 @@ fn check_held<const D: usize>(
         let held = scene.rheology.strength_at_rest(pressure).map_or(0.0, |strength| strength / pressure);
         let slope = along.norm() / across.norm();
         let value = format!("{moves}; slope tangent {slope:.3}, static friction {held:.3}");
-        return Err(refused_for(&value, "", "give \"stressed\" for grains, or remove `preparation`"));
+        return Err(refused_for(&value, "", "set `preparation` to \"stressed\" for grains, or remove it"));
     }
     if mean.norm() < STIRRED * scene.spacing {
         let value = format!("{moves}, and the material keeps mixing at {speed:.1e} m/s");

@@ -130,7 +130,7 @@ pub trait SceneSides<const D: usize>: PlainData + Default {
             if lower.is_periodic() != upper.is_periodic() {
                 let (field, other) = if lower.is_periodic() { (high, low) } else { (low, high) };
                 let rule = format!("periodic as `{other}` is");
-                return Err(ParameterError::field(&field, "not periodic", &rule, "make both ends periodic"));
+                return Err(ParameterError::field(&field, "not periodic", &rule, "make both sides periodic"));
             }
             if let (Some(below), Some(above)) = (lower.coordinate(), upper.coordinate())
                 && below >= above

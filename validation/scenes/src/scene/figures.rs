@@ -24,7 +24,7 @@ pub(super) fn pictures(parameters: &PlaneFlow, frames: &[Frame]) -> Figure {
         }
         panel
     });
-    Figure::new("pictures", "The material in the colours of its speed, and its walls, dashed.", panels.collect())
+    Figure::new("pictures", "Material coloured by speed. Dashed: walls.", panels.collect())
 }
 
 /// The corners of segments in a row, at their places.

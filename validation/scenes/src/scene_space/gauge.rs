@@ -160,7 +160,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
                     return Ok(());
                 }
                 let defect = format!("the corners from {} on are in line", shown(&corner));
-                Err(ParameterError::field("corners", defect, "", "give a corner and the two next to it"))
+                Err(ParameterError::field("corners", defect, "", "give one corner and its two neighbours"))
             }
             _ => Ok(()),
         }

@@ -67,7 +67,7 @@ impl setting::SceneInlet<3> for SpaceInlet {
         }
         let angle = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
         let defect = format!("edges at an angle of {angle:.1}° instead of 90°");
-        Err(ParameterError::field("corners", defect, "", "give a corner of a rectangle and the two next to it"))
+        Err(ParameterError::field("corners", defect, "", "give one corner of a rectangle and its two neighbours"))
     }
 
     fn feed(&self, supply: Supply) -> Option<Inlet<3>> {
@@ -94,7 +94,7 @@ mod tests {
         assert!(inlet((0.0, 0.0, 0.1)).check().is_ok());
         assert_eq!(
             inlet((0.0, 0.05, 0.1)).check().expect_err("slanted").to_string(),
-            "`corners`: edges at an angle of 63.4° instead of 90°; give a corner of a rectangle and the two next to it"
+            "`corners`: edges at an angle of 63.4° instead of 90°; give one corner of a rectangle and its two neighbours"
         );
     }
 }

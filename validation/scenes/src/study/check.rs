@@ -153,7 +153,7 @@ fn check_metric_name(name: &str) -> Result<(), FieldError> {
         return Ok(());
     }
     let rule = "a word of lower-case letters, digits and `_`, at most 60 of them";
-    Err(FieldError::new("name", format!("\"{name}\""), rule, "choose such as \"front_position\""))
+    Err(FieldError::new("name", format!("\"{name}\""), rule, "give a name such as \"front_position\""))
 }
 
 /// Quantity of a check: exactly one of the ways.
@@ -164,7 +164,7 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
     let [way] = given[..] else {
         let value = if given.is_empty() { "none of them".to_owned() } else { given.join(" and ") };
         let rule = "exactly one of `metric`, `value`, `compare`, `order_of` and `difference_of`";
-        let remedy = "write such as value = \"last\" with table and column, or compare = \"measured.csv\"";
+        let remedy = "write a line such as value = \"last\" with table and column, or compare = \"measured.csv\"";
         return Err(FieldError::new("value", value, rule, remedy));
     };
     let belongs = [

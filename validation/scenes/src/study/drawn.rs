@@ -67,7 +67,7 @@ impl FigureText {
     pub(super) fn check(&self, study: &NamesOfStudy) -> Result<(), FieldError> {
         if !is_file_name(&self.name) {
             let rule = "a name that a file can have: letters, digits, `-` and `_`";
-            let remedy = "choose such as \"thickness-over-slope\"";
+            let remedy = "give a name such as \"thickness-over-slope\"";
             return Err(FieldError::new("name", format!("\"{}\"", self.name), rule, remedy));
         }
         for (field, text) in [("caption", &self.caption), ("x", &self.x), ("y", &self.y)] {

@@ -28,7 +28,7 @@ pub(super) struct StudyText {
     pub(super) case: Option<String>,
     /// A case file with the base values, in place of `case`.
     pub(super) base: Option<PathBuf>,
-    /// The tier whose parameters fill what the base values leave out.
+    /// Tier that supplies parameters missing in the base values.
     pub(super) tier: Option<Tier>,
     /// Base values: the case's parameters, as in a case file.
     #[serde(default, skip_serializing_if = "Table::is_empty")]
@@ -172,7 +172,7 @@ impl StudyText {
         check_name("study", &self.study)?;
         if !is_file_name(&self.study) {
             let rule = "a name that a folder can have: letters, digits, `-` and `_`";
-            return Err(FieldError::new("study", format!("\"{}\"", self.study), rule, "choose such as \"my-flume\""));
+            return Err(FieldError::new("study", format!("\"{}\"", self.study), rule, "name it, e.g. \"my-flume\""));
         }
         check_text("summary", &self.summary)?;
         self.description.lines().try_for_each(|line| check_text("description", line))?;

@@ -141,7 +141,7 @@ impl Study {
         &self.text.study
     }
 
-    /// The tier whose parameters fill what the file leaves out.
+    /// Tier that supplies parameters missing in the file.
     pub fn tier(&self) -> Tier {
         self.base.tier.unwrap_or(Tier::Quick)
     }

@@ -13,7 +13,7 @@ A submission names the case, the code, its runs and the data of each run: partic
 time series, a profile, or single numbers. Metrics are computed from them as from our own runs. A metric without data
 reads \"not judged\" and neither passes nor fails. The folder receives index.html, metrics.json, figures/ and tables/.
 
-Exit codes: 0 all gates with data pass, 1 one fails or none has data, 2 bad input, 3 a run of ours diverged.";
+Exit codes: 0 all gates with data pass, 1 a gate fails or no gate has data, 2 bad input, 3 a Bagnold run diverged.";
 
 const LEAGUE_EXAMPLES: &str = "Examples:
   bagnold league                                        the stored results of other codes, on one page
@@ -23,7 +23,7 @@ The page has a row per code and a column per case, and for each case all metrics
 For three or more codes with one law, the page also shows their standard deviation and the limit. The folder also receives an
 archive of each submission, CODE-CASE.tar.
 
-Exit codes: 0 judged, whatever the verdicts, 2 bad input, 3 a run of ours diverged.";
+Exit codes: 0 all results judged, whatever the verdicts, 2 bad input, 3 a Bagnold run diverged.";
 
 const EXPORT_EXAMPLES: &str = "Examples:
   bagnold export column-planar --out for-my-code
@@ -87,7 +87,7 @@ pub struct ExportArguments {
     /// Also write the deck of this code with run.sh: openfoam, gerris, dualsphysics, lammps, newton or yade.
     #[arg(long = "for", value_name = "CODE")]
     pub code: Option<String>,
-    /// Also simulate the case: initial particles, and profiles of Bagnold
+    /// Also simulate the case, to add the initial particles and the results of Bagnold
     #[arg(long)]
     pub simulate: bool,
     /// Execution options.

@@ -23,7 +23,7 @@ A file that varies the viscosity of a film over a grid:
 
 The folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line per metric), failures.csv and figures/.
 
-Exit codes: 0 every run has numbers, 1 some are missing, 2 bad input, 3 some failed (see failures.csv).";
+Exit codes: 0 every run has results, 1 runs are missing, 2 bad input, 3 runs failed (see failures.csv).";
 
 /// `bagnold sweep`
 #[derive(Debug, Args)]

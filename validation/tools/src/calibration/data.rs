@@ -92,7 +92,7 @@ impl DatumText {
         }
         if let Some(noise) = self.noise {
             if !(noise > 0.0 && noise.is_finite()) {
-                return wrong("noise", &noise.to_string(), "positive", "give such as 0.01 for 1 %");
+                return wrong("noise", &noise.to_string(), "positive", "give a value such as 0.01 for 1 %");
             }
             if let Some(name) = spare.or_else(|| self.file.is_some().then_some("file")) {
                 let remedy = "leave one of the two out: synthetic data have no measurement";

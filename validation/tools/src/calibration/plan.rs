@@ -65,7 +65,7 @@ impl Repeats {
             return Err(FieldError::new("repeats", count, "1 with `choices`", "leave it out: choices are tried once"));
         }
         if count == 1 && path.is_some() {
-            let remedy = "add such as `repeats = 3`, or leave it out";
+            let remedy = "add a line such as `repeats = 3`, or remove `seed_path`";
             return Err(FieldError::finding("seed_path", "given without `repeats`", remedy));
         }
         Ok(Self { count, path: path.unwrap_or_else(|| Paths::Everywhere("seed".to_owned())) })
@@ -197,7 +197,7 @@ impl CalibrationPlan {
                 || "use a case of `fit` or `hold_out`".to_owned(),
                 |near| format!("did you mean `{near}`?"),
             );
-            Err(FieldError::new(&field, case, "a case that has data", &remedy))
+            Err(FieldError::new(&field, case, "a case with data in `fit` or `hold_out`", &remedy))
         };
         for (index, parameter) in self.parameters.iter().enumerate() {
             if let Paths::ByCase(paths) = &parameter.path {
@@ -220,7 +220,7 @@ impl CalibrationPlan {
             check_name(&format!("{field}.name"), &choice.name)?;
             choice.set.keys().try_for_each(|case| known(format!("{field}.set"), case))?;
             if let Some(case) = cases.iter().find(|case| choice.in_case(case).is_empty()) {
-                let remedy = format!("say what {} sets there", choice.name);
+                let remedy = format!("give the value that {} sets there", choice.name);
                 let (field, rule) = (format!("{field}.set"), format!("given for `{case}`"));
                 return Err(FieldError::new(&field, "incomplete", &rule, &remedy));
             }

@@ -61,7 +61,7 @@ struct BlockText {
     law: Option<String>,
     /// A case file with the base values, beside the plan
     base: Option<PathBuf>,
-    /// Tier whose parameters fill what `with` leaves out
+    /// Tier that supplies parameters missing in `with`
     tier: Option<Tier>,
     /// Parameters, as in a case file
     #[serde(default)]

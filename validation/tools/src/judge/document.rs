@@ -13,7 +13,7 @@ pub(super) fn word(verdict: Option<Verdict>) -> &'static str {
     verdict.map_or("not_judged", Verdict::word)
 }
 
-/// Bias and scatter of what a code gives.
+/// Bias and scatter of a code's results against the references, by quantity.
 pub(super) fn biases<'a>(case: &str, metrics: impl IntoIterator<Item = &'a Metric>) -> Vec<QuantityBias> {
     quantities_of([(case, metrics.into_iter().collect::<Vec<_>>())])
 }

@@ -338,7 +338,7 @@ impl SweptParameter {
                 let shown = levels.map_or_else(|| "missing".to_owned(), |levels| levels.to_string());
                 let rule =
                     if grid { format!("between 2 and {MOST_RUNS}") } else { "left out, without grid".to_owned() };
-                refused("levels", shown, &rule, "give the number of values in the range of a grid's parameter")
+                refused("levels", shown, &rule, "give the number of grid values from `lower` to `upper`")
             }
         }
     }

@@ -32,7 +32,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) ->
     let mut panels: Vec<Panel> = layers.iter().map(panel).collect();
     panels.extend(layers.iter().filter_map(|layer| open_panel(records, layer)));
     let caption = "Water velocity above moving grains and above a bed at rest, as in figures 7 to 9 of the bed-load \
-                   paper (points lost). Below: their difference, with 64 draws of the closures from published \
+                   paper (missing in the scan). Below: their difference, with 64 draws of the closures from published \
                    ranges.";
     Figure::new("with-and-without-motion", caption, panels).in_columns(3)
 }

@@ -76,8 +76,8 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
     Figure::new(
         "profiles",
         "Steady 1-D layers over the height in grain diameters, with published closures: grain velocity (figures 10 \
-         and 11 of the bed-load paper), drag (figures 12 and 13), stresses of both phases, weight above. The paper's \
-         curves are lost.",
+         and 11 of the bed-load paper), drag (figures 12 and 13), stresses of both phases, weight above. The scan \
+         lacks these figures.",
         panels.into(),
     )
     .in_columns(2)
@@ -98,11 +98,11 @@ fn carried(state: &LayerState) -> Vec<f64> {
 fn transport(layers: &[SolvedLayer<'_>]) -> Figure {
     let mut panel = transport_panel::formulas();
     let points = layers.iter().map(|(run, state)| (run.stream().shields_number(), state.transport()));
-    panel.points("1-D layer, published closures", 0, points);
+    panel.points("1-D continuum layer", 0, points);
     Figure::new(
         "transport",
-        "Bed-load transport rate over the Shields number: 1-D layers with published closures, and published \
-         formulas. Band about Wong & Parker's formula: scatter of the experiments behind this formula.",
+        "Bed-load transport rate over the Shields number: 1-D layers and published formulas. All closures but the \
+         roughness fade length are published. Band: scatter of the experiments behind Wong & Parker's formula.",
         vec![panel],
     )
 }

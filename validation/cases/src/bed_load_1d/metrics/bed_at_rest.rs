@@ -43,14 +43,14 @@ pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, rest: &LayerState
             None,
             "near the bed slower than without moving grains",
             Limit::AtMost(-0.1),
-            "at least 0.1 u_* slower, so that equal velocities fail",
+            "−0.1 u_* (friction velocity): so much slower that equal velocities fail",
         ),
         (
             ABOVE,
             Some(0.0),
             "above as fast as without moving grains",
             Limit::Within(-0.25, 0.25),
-            "0.25 u_*, as for clear water: 2 % of the depth-averaged velocity",
+            "0.25 u_* (friction velocity): 2 % of the depth-averaged velocity",
         ),
     ];
     for (height, expected, statement, limit, reason) in statements {
@@ -73,7 +73,7 @@ pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, rest: &LayerState
                 .against(None, statement, Confidence::Medium)
                 .gated_by(
                     is_shown.then_some(Limit::AtLeast(1.05)),
-                    "5 % faster growth, beyond the discretisation error",
+                    "1.05: a slope steeper by 5 % exceeds the discretisation error",
                 )
                 .with_snapshot_tolerance(0.01, 0.0),
         );

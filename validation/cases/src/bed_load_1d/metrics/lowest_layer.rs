@@ -101,7 +101,7 @@ pub(super) fn beside_measured(run: &BedLoad1dFlow, state: &LayerState) -> Option
         )
         .gated(
             Limit::Within(bounds.0 / median, bounds.1 / median),
-            "range of 90 % of the rates measured within a factor of 1.3 in the Shields number",
+            "limits enclose 90 % of rates measured within a factor of 1.3 in Shields number",
         )
         .with_snapshot_tolerance(1e-3, 0.0);
     Some(metric)

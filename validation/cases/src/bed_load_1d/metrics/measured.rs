@@ -51,14 +51,14 @@ fn profile_metrics((run, record): &BedLoad1dRecord, of: MeasuredBedLoad) -> Vec<
         let scatter = neighbour_scatter(points).map(|scatter| (scale * scatter, SCATTER));
         (!points.is_empty()).then_some((quantity, value, scatter, limit, reason))
     };
-    let fraction = "0.1, a sixth of the packed solid fraction; the source states no uncertainty";
-    let velocity = "20 % of the largest measured velocity; the source states no uncertainty";
+    let fraction = "0.1: a sixth of the packed solid fraction, chosen as the source states no uncertainty";
+    let velocity = "20 % of the largest published velocity: chosen, as the source states no uncertainty";
     let (grains, water) = (&theirs.grain_velocity, &theirs.fluid_velocity);
     let of_stress = (!stresses.is_empty()).then(|| {
         let value = 100.0 * difference(&state.face, &state.fluid_stress, &stresses) / bed;
         let scatter = 100.0 * theirs.stress_scatter * density / bed;
         let scatter = (scatter, "scatter of the points about the line through their neighbours");
-        let reason = "20 % of the bed shear stress, the same share as for velocities";
+        let reason = "20 % of the bed shear stress: the share chosen for velocities too";
         (TURBULENT_STRESS_DIFFERENCE, value, Some(scatter), STRESS_LIMIT, reason)
     });
     let metric = |(quantity, value, scatter, limit, reason): (Quantity, f64, Option<(f64, &str)>, f64, &str)| {
@@ -98,11 +98,11 @@ pub(super) fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
                 "the thinned points integrate to within 6 % of all points, taken as a uniform distribution",
             );
         metrics.push(if run.is_suspended() {
-            let reason = "a factor of 1.5, set before the runs; total-load formulas are usually accepted within 2";
+            let reason = "factor 1.5, set before the runs: stricter than the factor 2 usual for total-load formulas";
             suspension::with_spread(metric, records, (run, &record.data.state), |_, state| ratio(state))
                 .gated(Limit::Within(1.0 / TRANSPORT_FACTOR, TRANSPORT_FACTOR), reason)
         } else {
-            let reason = "range of 90 % of Meyer-Peter & Müller's runs with τ* ≥ 0.1";
+            let reason = "limits enclose 90 % of Meyer-Peter & Müller's runs with Shields numbers τ* ≥ 0.1";
             metric.gated(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1), reason)
         });
         let second = record.data.second.as_ref();

@@ -133,7 +133,7 @@ fn one_state(variant: &Variant, difference: f64, source: &str) -> Metric {
         .exactly(0.0, source)
         .gated(
             Limit::AtMost(ONE_STATE),
-            "1e-6: two starts must reach one steady state; incomplete steadiness leaves at most 8e-8",
+            "1e-6: two starts must reach one steady state; incomplete steadiness leaves 8e-8 (measured)",
         )
         .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE)
 }
@@ -149,7 +149,7 @@ fn over_formula(variant: &Variant, run: &BedLoad1dFlow, state: &LayerState, reas
 
 /// Transport against the formula and against measured runs.
 fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, state: &LayerState) {
-    let reason = "range of 90 % of measured rates; the uncertainty of the closures is listed separately";
+    let reason = "limits enclose 90 % of measured rates; the closures' uncertainty is listed separately";
     let ratio = over_formula(&run.variant(), run, state, reason);
     metrics.extend(ratio.map(|ratio| ratio.with_snapshot_tolerance(1e-3, 0.0)));
     if is_bed_load(run) {
@@ -194,7 +194,7 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, state: &LayerState) 
                 .exactly(0.0, identity)
                 .gated(
                     Limit::AtMost(largest),
-                    "zero in an exactly steady state; a smaller `steady_change` reduces the rest",
+                    "limit near 0, the value of an exactly steady state; a smaller `steady_change` reduces the rest",
                 )
                 .with_snapshot_tolerance(1.0, 0.1 * largest),
         );
@@ -225,7 +225,7 @@ fn order(records: &[BedLoad1dRecord], run: &BedLoad1dFlow, motion: BedMotion) ->
     let metric = OBSERVED_ORDER
         .of(&variant, libm::log2(coarse / fine))
         .exactly(2.0, MODEL)
-        .gated(Limit::AtLeast(least), "second order is expected with a given solid fraction, first order with dilation")
+        .gated(Limit::AtLeast(least), "1.8 with given solid fraction, 1 with dilation: orders 2 and 1 are expected")
         .with_snapshot_tolerance(0.02, 0.0);
     Some(metric)
 }
@@ -332,7 +332,7 @@ fn with_slope(metrics: &mut Vec<Metric>, mut layers: Vec<SolvedLayer<'_>>) {
             quantity
                 .of(&variant, value)
                 .against(None, statement, Confidence::Medium)
-                .gated(Limit::AtLeast(1.05), "growth by 5 % from slope to slope, beyond the discretisation error")
+                .gated(Limit::AtLeast(1.05), "1.05: growth by 5 % from slope to slope exceeds the discretisation error")
                 .with_snapshot_tolerance(0.01, 0.0),
         );
     }

@@ -63,7 +63,7 @@ fn beside_measured(
         )
         .gated(
             Limit::Within(lower / band.median, upper / band.median),
-            "range of 90 % of thresholds measured with grains of 0.5 to 2 times this size, however motion was defined",
+            "limits enclose 90 % of thresholds measured with grains of 0.5 to 2 times this size",
         )
         .with_snapshot_tolerance(0.01, 0.0);
     Some(metric)

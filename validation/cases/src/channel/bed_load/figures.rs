@@ -106,7 +106,7 @@ fn water(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
     let errors = panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.error);
     let caption = format!(
         "Mean water velocity above moving grains and above a bed at rest, as in figures 7 to 9 of the bed-load paper \
-         (curves lost). Parameters are fitted to Wong & Parker's formula. Statistical errors: at most {:.2} u_*.",
+         (missing in the scan). Parameters are fitted to Wong & Parker's formula. Statistical errors: at most {:.2} u_*.",
         errors.copied().filter(|error| error.is_finite()).fold(0.0, f64::max),
     );
     Figure::new("water", &caption, panels).in_columns(3)
@@ -136,7 +136,7 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         drags.push(drag);
     }
     let caption = "Mean grain velocity and drag per volume over the height, as in figures 10 to 13 of the bed-load \
-                   paper (curves lost). Parameters are fitted to Wong & Parker's formula. Dashed: 1-D layer.";
+                   paper (missing in the scan). Parameters are fitted to Wong & Parker's formula. Dashed: 1-D layer.";
     let columns = slopes.len();
     velocities.extend(drags);
     Figure::new("sediment", caption, velocities).in_columns(columns)

@@ -114,8 +114,7 @@ pub(super) fn drag_ratio(drag: &[(f64, f64)], layer: &LayerState) -> f64 {
     own / other
 }
 
-/// Drag per volume on the topmost bin of grains over the drag on the bin below, of a profile upwards; not a number with fewer than two
-/// bins `[-]`.
+/// Drag per volume on the topmost bin of grains divided by the drag on the bin below; NaN with fewer than two bins `[-]`.
 pub(super) fn drag_top_ratio(drag: &[(f64, f64)]) -> f64 {
     if let [.., (_, below), (_, top)] = drag { top / below } else { f64::NAN }
 }

@@ -31,7 +31,7 @@ impl Flow for BedLoadFlow {
     fn check(&self) -> Result<(), ParameterError> {
         self.checked()?;
         if self.is_kept() && KeptState::of(self).is_none() {
-            let (rule, remedy) = ("\"layer\", for no state of this slope and set-up is kept", "set it to \"layer\"");
+            let (rule, remedy) = ("\"layer\", because no state of this slope and set-up is kept", "use \"layer\"");
             return Err(ParameterError::field("continuum.start_state", "kept", rule, remedy));
         }
         Ok(())

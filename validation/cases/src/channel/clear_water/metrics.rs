@@ -67,15 +67,15 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     metrics.extend([
         known(observed(VELOCITY_RMS, data.profile.estimate(|points| rms(&law, points)), 1.0), MOVED.rms)
             .exactly(0.0, "logarithmic law, over 0.1 h … 0.9 h")
-            .gated_by(judged(Limit::AtMost(0.25)), "0.25 u_*: 2 % of the depth-averaged velocity"),
+            .gated_by(judged(Limit::AtMost(0.25)), "0.25 u_* (friction velocity): 2 % of the depth-averaged velocity"),
         known(observed(SEMI_LOG_SLOPE, data.profile.estimate(|points| slope(&law, points)), 1.0), MOVED.slope)
             .exactly(1.0, "u_*/κ, fitted to u over ln z′ in 0.1 h … 0.9 h")
-            .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the slope u_*/κ of the logarithmic law"),
+            .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the logarithmic law's slope: 1 % was measured"),
         known(channel::bed_shear(&variant, data, law.bed_shear_stress()), MOVED.shear)
-            .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the weight along the slope"),
+            .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the weight along the slope: 1 % was measured"),
         known(observed(MEAN_VELOCITY, mean, 1.0 / law.mean_velocity()), MOVED.mean)
             .exactly(1.0, "depth mean of the logarithmic law")
-            .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the depth-averaged velocity of the logarithmic law"),
+            .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the logarithmic law's mean: 1 % was measured"),
         channel::height_change(&variant, data, "mean height h/2: water keeps its volume"),
         channel::pressure_l2(&variant, data),
     ]);

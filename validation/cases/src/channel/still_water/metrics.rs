@@ -36,14 +36,13 @@ fn stabilised((run, record): &StillWaterRecord) -> Vec<Metric> {
     let velocity = floored(channel::observed(RMS_VERTICAL_VELOCITY, &variant, rms, 1.0), 1e-5).exactly(0.0, "rest");
     let short = run.duration < AT_REST_AFTER;
     let (pressure, reason) = match (short, run.water.resolution) {
-        (true, 23) => (0.35, "0.35 %: columns 23 particles deep have 0.19 and 0.27 % while perturbations decay"),
-        (true, _) => (0.5, "0.5 %: columns have 0.19 to 0.40 % while initial perturbations decay"),
-        _ => (0.7, "0.7 %: columns at rest have 0.41 to 0.54 %, averaged over the last window"),
+        (true, 23) => (0.35, "0.35 %: 0.19 and 0.27 % were measured with 23 particle rows, while perturbations decay"),
+        (true, _) => (0.5, "0.5 %: 0.19 to 0.40 % was measured while initial perturbations decay"),
+        _ => (0.7, "0.7 %: 0.41 to 0.54 % was measured in columns at rest"),
     };
     let mut metrics = vec![
         channel::particles_lost(&variant, record),
-        floored(height, 1e-3)
-            .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height, averaged over the last window"),
+        floored(height, 1e-3).gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height: water keeps its volume"),
         if run.duration >= AT_REST_AFTER {
             velocity.gated(Limit::AtMost(5e-4), "0.1 % of √(g h), averaged over the last window")
         } else {
@@ -66,7 +65,7 @@ fn blow_up((run, record): &StillWaterRecord) -> Metric {
     BLOW_UP_TIME
         .of(&run.variant(), time)
         .against(None, "a particle above 1.2 h or a divergence; the stabilised run has neither", Confidence::Exact)
-        .gated(Limit::AtMost(limit), "negative control: without stabilisation the column must diverge within this time")
+        .gated(Limit::AtMost(limit), "half of the run, by which this control without stabilisation must diverge")
         // what sprays is chaotic
         .with_snapshot_tolerance(0.0, 0.5 * limit)
 }

@@ -33,8 +33,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 pub(super) fn animations(records: &[Record]) -> Vec<Animation> {
     let moving = |(run, record): &Record| {
         let caption = format!(
-            "{}: collapse, coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front (thickness of \
-             0.02 r0). The lift gate at 0.2 m is not drawn.",
+            "{}: collapse, coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front (where the \
+             thickness is 0.02 r0). The lift gate at 0.2 m is not drawn.",
             label(run)
         );
         let view = View {

@@ -70,7 +70,7 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
                 data.front_uncertainty().map(|uncertainty| uncertainty * run.reservoir_length),
             )
             .against(Some(0.5 * (short + long)), &source, SLOPE_EXPERIMENT.confidence)
-            .gated_by(is_judged.then_some(limit), "the fit with k = 0.4 to 0.5, widened by 15 % on either side"),
+            .gated_by(is_judged.then_some(limit), "limits are the published fit with k = 0.4 to 0.5, widened by 15 %"),
             at_rest(&variant, data, &run.material, run.duration),
             observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(
                 libm::atan(friction).to_degrees() - run.slope_angle,
@@ -129,13 +129,13 @@ fn of_fields(time: f64, run: &SlopeFlow, record: &Recorded<SlopeCollapse>) -> Op
     let near_surface = "from 0.11 s on the largest velocity is near the surface, in a shallow region";
     let mut metrics = vec![stated(FASTEST_DEPTH, inside.fastest_depth, near_surface).gated_by(
         gate(Limit::AtMost(NEAR_SURFACE)).filter(|_| time >= EARLIEST_STATED),
-        "upper third of the depth; uniform velocity gives 1/2; the lift gate clears the grains at 0.108 s",
+        "1/3: near the surface means the upper third; a uniform velocity would give 1/2",
     )];
     metrics.extend(inside.viscosity_and_depth.map(|correlation| {
         let rises = "the viscosity grows with the distance from the free surface, mainly through the pressure";
         stated(VISCOSITY_AND_DEPTH, correlation, rises).gated_by(
             gate(Limit::AtLeast(0.5)),
-            "0.5: a viscosity that rises all the way down gives 1, an uncorrelated one 0",
+            "0.5: midway between no correlation (0) and viscosity rising all the way down (1)",
         )
     }));
     let correlations = inside.viscosity_and_pressure.zip(inside.viscosity_and_shear_rate);
@@ -143,7 +143,7 @@ fn of_fields(time: f64, run: &SlopeFlow, record: &Recorded<SlopeCollapse>) -> Op
         let looks =
             "the field of the viscosity looks like that of the pressure and hides the effect of the strain rate";
         stated(VISCOSITY_LIKE_PRESSURE, pressure.abs() - rate.abs(), looks)
-            .gated_by(gate(Limit::AtLeast(0.0)), "0: the viscosity correlates more with pressure than with shear rate")
+            .gated_by(gate(Limit::AtLeast(0.0)), "0: above it, viscosity follows pressure more than shear rate")
     }));
     let (surface, bed) = inside.surface_and_bed_viscosity;
     let observed = [

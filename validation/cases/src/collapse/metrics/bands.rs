@@ -20,7 +20,7 @@ pub(super) fn band(expected: f64, tolerance: f64) -> Limit {
 /// How far the run-out of Lagrée's grains may lie from his own law `[-]`, and why.
 pub(crate) const SAME_LAW: f64 = 0.15;
 pub(crate) const SAME_LAW_REASON: &str =
-    "15 %: same law, other method; the published fit has two digits, its front no stated thickness";
+    "15 %: the published fit, by another method, has two digits and no stated front thickness";
 
 /// How far results may lie from an experiment's law that tells no scatter of its points, at most `[-]`.
 pub(crate) const WIDEST: f64 = 0.15;
@@ -55,11 +55,11 @@ pub(crate) fn run_out<const D: usize>(run: &ColumnFlow<D>, has_seeds: bool) -> A
     match (D, run.made_of()) {
         (3, Material::SAND) if run.is_resolved() => Some((
             around(law.value(a)?, WIDEST),
-            "15 % about Lube's law, the widest band of planar columns; no scatter is published",
+            "15 % about Lube's law: the most allowed to any column, as no scatter is published",
         )),
         (2, Material::SAND) if run.resolution >= 20 => Some((
             around(law.value(a)?, apart(&PLANAR_COLLAPSE.run_out, a, run.spacing() / run.half_width)?),
-            "difference between Lajeunesse's and Lube's laws, at most 15 %; neither source states its scatter",
+            "limits lie as far from Lube's law as Lajeunesse's does, 15 % at most; neither states scatter",
         )),
         // coarse columns scatter by 3 % from seed to seed
         (2, Material::LAGREE) if run.resolution >= 40 || (run.resolution >= 20 && !has_seeds) => {
@@ -75,13 +75,13 @@ pub(crate) fn height<const D: usize>(run: &ColumnFlow<D>) -> AcceptanceBand {
     let expected = law.value(a).filter(|_| run.has_published_law())?;
     let is_round = D == 3;
     let (tolerance, reason) = match (run.made_of(), a) {
-        (Material::SAND, ..=0.7) if !is_round => (0.03, "3 %: the column's top stays undisturbed up to a = 0.7"),
+        (Material::SAND, ..=0.7) if !is_round => (0.03, "3 % of the initial height, kept up to aspect ratio 0.7"),
         (Material::SAND, _) if !is_round => (
             apart(&PLANAR_COLLAPSE.height, a, run.spacing() / run.half_width)?,
-            "difference between Lajeunesse's and Lube's laws, from one spacing to 15 %; neither source states its scatter",
+            "limits lie as far from Lube's law as Lajeunesse's does, from one spacing to 15 %",
         ),
         (Material::LAGREE, _) if run.is_resolved() => {
-            (0.1, "10 %, two of 20 particle rows; three codes with this law scatter by 1 to 13 %")
+            (0.1, "10 %: two of 20 particle rows, about the scatter of three codes with this law, 1 to 13 %")
         }
         _ => return None,
     };

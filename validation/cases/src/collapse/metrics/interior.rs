@@ -13,7 +13,7 @@ const LINEAR_LAYER: &str =
     "statement of the collapse paper: the velocity is linear over the depth of the flowing layer";
 /// Share of the variance that a line explains of what counts as linear `[-]`, and why.
 const LINEAR: f64 = 0.9;
-const LINEAR_REASON: &str = "0.9: the paper's linear profile is read as a line that explains 90 % of the variance";
+const LINEAR_REASON: &str = "0.9: a line that explains 90 % of the variance counts as the paper's linear profile";
 const AT_THE_SURFACE: &str = "statement of the collapse paper: the velocity is largest at the free surface";
 /// Aspect ratio up to which a column is shallow, and part of it has to stay where it was `[-]`.
 const SHALLOW: f64 = 1.0;
@@ -43,7 +43,7 @@ pub(super) fn of_run<const D: usize>((run, record): &CollapseRecord<D>, records:
             .exactly(0.0, "kinetic and potential energy never exceed those of the start")
             .gated(
                 Limit::AtMost(100.0 * run.elastic_share()),
-                "elastic energy of the initial hydrostatic pressure, over the initial potential energy",
+                "limit is the releasable elastic energy of the initial pressure, over the initial potential energy",
             )
             .with_snapshot_tolerance(1e-3, 1e-3),
     ];

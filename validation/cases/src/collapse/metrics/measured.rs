@@ -75,7 +75,7 @@ pub(super) fn of_pile<const D: usize>(
             .known_to(Origin::Digitisation, Some(pile.front_reading() / r), READING)
             .gated_by(
                 judged(band(run_out, PILE_RUN_OUT)),
-                "33 %, twice the uncertainty: unmeasured rate dependence of the rods' friction, friction angle, toe, reading of the figure",
+                "33 %: twice the uncertainty of 16 %, mostly by unmeasured rate dependence of the rods' friction",
             ),
         with_friction(of_height, records, run, |(_, other)| Some(other.data.final_height() - tall))
             .known_to(Origin::Digitisation, Some(pile.reading / r), READING)
@@ -133,7 +133,7 @@ pub(super) fn of_round_column<const D: usize>(
             )
             .gated_by(
                 (run.is_resolved() && run.is_published()).then_some(Limit::Within(1.0 - ROUND, 1.0 + ROUND)),
-                "the project's aim: 20 %; the source names no grains, and run-outs of Lube's grains differed by less",
+                "20 %: the project's aim; the source names no grains, but run-outs of Lube's various grains differed by less",
             ),
     )
 }

@@ -159,7 +159,7 @@ pub(crate) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, lo
         .of(variant, collapse.rest_time())
         .against(None, "grains with a yield stress come to rest", Confidence::Exact)
         .with_snapshot_tolerance(0.02, 0.0)
-        .gated_by(limit, "rest must follow the front's stop (99 % of the run-out), before the run ends")
+        .gated_by(limit, "limits: the front's stop, at 99 % of its way, and the run's end")
 }
 
 /// Where the true value of a user's own grains lies, by how far those of published ones were off.
@@ -227,7 +227,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
             )
             .gated_by(
                 of_sand.then_some(Limit::Within(2.25, 3.6)),
-                "three sources give 2.5, 3 and 3.3; 10 % more, for each defines the stop differently",
+                "2.25 to 3.6: published values 2.5, 3 and 3.3, widened by 10 % as definitions differ",
             ),
         at_rest(&variant, collapse, &run.material, run.duration * run.time_scale()),
         if friction > 0.0 {
@@ -235,7 +235,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
                 .exactly(steepest, "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front")
                 .gated(
                     flattest(run).map_or(Limit::AtMost(steepest), |flattest| Limit::Within(flattest, steepest)),
-                    "at most the friction angle; for planar sand at least the slope by Lajeunesse's laws less 15 %",
+                    "limits: at most the friction angle; planar sand, at least 15 % below Lajeunesse's slope",
                 )
         } else {
             slope
@@ -248,7 +248,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
             )
             .gated_by(
                 (of_sand && CONES.contains(&a)).then_some(Limit::AtLeast(BENT_FLANK)),
-                "0.973, the value of a flank whose lower half is half as steep as the upper",
+                "0.973: the R² of a bent flank, half as steep in its lower half",
             ),
         HEIGHT_BY_TOP
             .of(&variant, 100.0 * (collapse.top / collapse.final_height() - 1.0))
@@ -256,7 +256,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
             .with_snapshot_tolerance(0.01, 0.2)
             .gated_by(
                 (a <= 5.0).then_some(Limit::Within(-10.0, 10.0)),
-                "the project's aim: 10 % up to a = 5; single particles above the heap would exceed this",
+                "10 %: the project's aim up to aspect ratio 5; single particles above the heap exceed it",
             ),
     ];
     let (x96, x99) = collapse.quantiles;

@@ -126,11 +126,11 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
             metrics.extend([
                 observed(SCALING_EXPONENT, scaling.law.value).against(None, published, Confidence::High).gated_by(
                     gate.map(|gate| within_reach(gate, scaling.half_width)),
-                    "published range, widened by this exponent's 95 % interval; published exponents depend little on the material",
+                    "limits are the published exponents, which depend little on material, widened by this exponent's 95 % interval",
                 ),
                 observed(SCALING_CONFIDENCE, scaling.half_width).against(None, interval, Confidence::Exact).gated_by(
                     gate.map(|_| Limit::AtMost(WIDEST)),
-                    "width of the range of published exponents: 0.1 for run-outs, 0.15 for heights",
+                    "0.075: half the widest range of published exponents, 0.15 for heights",
                 ),
             ]);
             if quantity == RUN_OUT.name
@@ -148,7 +148,7 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
                     .of(&variant.and("aspect_ratio", ratios), law.value)
                     .against(None, &lube.source, lube.confidence)
                     .known_to(Origin::Numerical, Some(law.standard_error), "scatter about the fit")
-                    .gated_by(gate, "10 %: the run-out of low columns is proportional to the aspect ratio")
+                    .gated_by(gate, "10 % about 1: run-outs of low columns are proportional to the aspect ratio")
                     .with_snapshot_tolerance(1e-2, 5e-3),
             );
         }

@@ -106,10 +106,10 @@ fn steady(record: &Record) -> Vec<Metric> {
         let metric = quantity.of(&variant, value).exactly(0.0, EXACT).with_snapshot_tolerance(1e-3, 1e-4);
         metric.unless(not_steady.as_ref())
     };
-    let velocity = "the project's aim: 0.7 % with 40 particles over the depth, 0.8 % with 20";
-    let surface = "the project's aim: 1 % with 40 particles over the depth, 1.2 % with 20";
-    let stress = "the project's aim: 0.1 % with 40 particles over the depth, 0.15 % with 20";
-    let slip = "the project's aim: 0.3 % with 20 or 40 particles over the depth";
+    let velocity = "limit 0.7 % with 40 particle rows, 0.8 % with 20: the project's aim";
+    let surface = "limit 1 % with 40 particle rows, 1.2 % with 20: the project's aim";
+    let stress = "limit 0.1 % with 40 particle rows, 0.15 % with 20: the project's aim";
+    let slip = "0.3 %: the project's aim with 20 or 40 particle rows";
     let gates = [
         (VELOCITY_L2, errors.velocity_l2, 0.7, 0.8, velocity),
         (SURFACE_VELOCITY_ERROR, errors.surface_velocity_error, 1.0, 1.2, surface),
@@ -127,13 +127,13 @@ fn steady(record: &Record) -> Vec<Metric> {
     let measured = BagnoldProfile { layer_height: exact.layer_height * height.value, ..exact };
     metrics.push(height);
     let errors = SteadyErrors::of(&data.profile, &measured);
-    let reason = "the project's aim: 0.7 % with 40 particles over the depth, 1 % with 20";
+    let reason = "limit 0.7 % with 40 particle rows, 1 % with 20: the project's aim";
     metrics.extend(errors.map(|errors| {
         let metric = error(VELOCITY_L2_MEASURED_HEIGHT, errors.velocity_l2);
         by_resolution(metric, run.layer.resolution, 0.7, 1.0, reason)
     }));
     if run.start == LayerStart::Rest {
-        let reason = "as for the steady profile: 0.7 % with 40 particles over the depth, 0.8 % with 20";
+        let reason = "limit 0.7 % with 40 particle rows, 0.8 % with 20: the project's aim";
         metrics.extend(transient(record, (0.7, 0.8), reason));
     }
     metrics
@@ -146,7 +146,7 @@ fn relative_height(run: &BagnoldFlow, data: &LayerObservation) -> Metric {
         .exactly(expected, "twice the mean height of the weakly compressible layer over its thickness")
         .gated(
             Limit::Within(expected - 0.005, expected + 0.005),
-            "0.5 %, a tenth of one of 20 particle rows: the flow neither dilates nor sinks",
+            "0.5 %: a tenth of one of 20 rows, since the flow neither dilates nor sinks",
         )
         .with_snapshot_tolerance(1e-4, 0.0)
 }
@@ -160,15 +160,15 @@ fn other_grains(whole: &Record) -> Vec<Metric> {
         let metric = quantity.of(&run.variant(), value).exactly(0.0, EXACT).with_snapshot_tolerance(1e-3, 1e-4);
         by_resolution(metric.unless(not_steady.as_ref()), run.layer.resolution, limit, 2.5 * limit, reason)
     };
-    let velocity = "the project's aim for any grains: 1 % with 40 particles over the depth, 2.5 % with 20";
-    let stress = "the project's aim for any grains: 0.15 % with 40 particles over the depth, 0.375 % with 20";
+    let velocity = "limit 1 % with 40 particle rows, 2.5 % with 20: the project's target for all grains";
+    let stress = "limit 0.15 % with 40 particle rows, 0.375 % with 20: the project's target for all grains";
     let mut metrics = vec![
         gated(VELOCITY_L2, errors.velocity_l2, 1.0, velocity),
         gated(IMPLIED_STRESS_ERROR, errors.implied_stress_error, 0.15, stress),
         relative_height(run, &record.data),
     ];
     if run.start == LayerStart::Rest {
-        let reason = "the project's aim for steep layers: 3 %; too little stress diffusion gives 20 %";
+        let reason = "3 %: the project's aim for steep layers; too little stress diffusion would leave 20 %";
         metrics.extend(transient(whole, (3.0, 3.0), reason));
     }
     metrics
@@ -199,7 +199,7 @@ fn compression((run, record): &Record) -> Option<Metric> {
             .of(&run.variant(), closer / count / sunk)
             .exactly(1.0, "density and volume of a layer that sinks under its weight")
             .with_snapshot_tolerance(1e-3, 0.0)
-            .gated(Limit::Within(0.98, 1.02), "2 %: the surface row, one of 20 rows, lacks part of its neighbours"),
+            .gated(Limit::Within(0.98, 1.02), "2 %: expected error of the top row, one of 20, which lacks neighbours"),
     )
 }
 
@@ -236,7 +236,7 @@ fn arrest((run, record): &Record) -> Vec<Metric> {
     let time = match expected {
         Some(expected) => time.gated(
             Limit::Within(0.97 * expected, 1.03 * expected),
-            "3 % of the 1-D solution's time; layers of 20 and 40 rows stop within 0.3 %",
+            "3 % of the 1-D solution's time: ten times the error measured with 20 and 40 rows",
         ),
         None => time,
     };
@@ -245,7 +245,7 @@ fn arrest((run, record): &Record) -> Vec<Metric> {
     let rest = REST_RMS_SPEED
         .of(&variant, rest)
         .exactly(0.0, "a layer below the static friction angle rests")
-        .gated(Limit::AtMost(1e-4), "after the stop, below 1e-4 m/s counts as rest")
+        .gated(Limit::AtMost(1e-4), "1e-4 m/s: speeds below this count as rest after the stop")
         .with_snapshot_tolerance(0.2, 1e-6);
     // what starts at rest has nothing to lose
     if run.start == LayerStart::Rest { vec![rest] } else { vec![time, rest] }

@@ -42,7 +42,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         );
         metrics.push(match particles {
             Arrangement::Lattice => order
-                .gated(Limit::AtLeast(1.5), "the project's aim: order 1.5 on a lattice")
+                .gated(Limit::AtLeast(1.5), "1.5: the project's aim on a lattice")
                 .with_snapshot_tolerance(0.01, 0.0),
             // no order of its own: it ends where the floor begins
             Arrangement::Jittered => order.with_snapshot_tolerance(0.05, 0.05),
@@ -122,7 +122,7 @@ fn skin_difference(records: &[Record]) -> Option<Metric> {
     let difference = 100.0 * relative_l2(velocities.filter(|(wide, own)| wide.is_finite() && own.is_finite()));
     // pairs are single precision, and lists group the sums over them
     let reason =
-        "1e-4 %: single-precision rounding, which laminar films do not amplify; double precision leaves 1e-13 %";
+        "1e-4 %: expected single-precision rounding, not amplified by laminar flow; double precision left 1e-13 %";
     Some(
         SKIN_DIFFERENCE
             .of(&run.variant(), difference)
@@ -140,17 +140,19 @@ fn profile(record: &Record) -> Vec<Metric> {
     let rows = if points > BINS { run.layer.resolution.max(points) } else { run.layer.resolution };
     let limit = match (run.film(), rows) {
         (SteadyFilm::Newtonian(_), 10..) if run.top == Top::Mirror => {
-            Some((3.0, "3 % with 10 particles over the depth; a mirror that transmits shear bends the profile"))
+            Some((3.0, "3 % with 10 particle rows; a mirror that wrongly transmits shear would bend the profile"))
         }
         (SteadyFilm::Newtonian(_), 40..) => Some((1.0, "the project's aim: 1 % with 40 particles over the depth")),
-        (SteadyFilm::Newtonian(_), 20..) => Some((2.0, "2 %: 1 % with 40 particles, first order at worst")),
+        (SteadyFilm::Newtonian(_), 20..) => {
+            Some((2.0, "2 % with 20 particle rows: twice the limit of 40 rows, since errors are first-order"))
+        }
         (SteadyFilm::Eddies(_), 20..) => {
-            Some((3.0, "3 %: 2 % as for Newtonian films, half more for a stress quadratic in the rate"))
+            Some((3.0, "3 % with 20 rows: half more than Newtonian films, as stress is quadratic in shear rate"))
         }
         // what a law of one's own may be off by is for its author to say
         (SteadyFilm::Integrated(_), _) => None,
         (_, 40..) => Some((2.0, "the project's aim: 2 % with 40 particles over the depth")),
-        (_, 20..) => Some((3.0, "3 %: 2 % with 40 particles, half of which is the regularisation's creep")),
+        (_, 20..) => Some((3.0, "3 % with 20 rows: 1 % creep of the regularised yield, 2 % first-order error")),
         _ => None,
     };
     let exact = if matches!(run.film(), SteadyFilm::Integrated(_)) { INTEGRATED } else { EXACT };
@@ -175,7 +177,7 @@ fn plug_edge((run, record): &Record) -> Option<Metric> {
     let points: Vec<(f64, f64)> = sheared.map(|(y, rate)| (y, libm::pow(rate.abs(), film.flow_index()))).collect();
     let edge = linear_fit(&points).map_or(f64::NAN, |fit| -fit.intercept / fit.slope);
     let spacing = run.layer.layer_height / run.layer.resolution as f64;
-    let reason = "one spacing; a line through |du/dy|ⁿ over 0.1 Y … 0.8 Y gives the edge";
+    let reason = "1 spacing: expected accuracy of edges extrapolated by a line through |du/dy|ⁿ";
     let error = PLUG_EDGE_ERROR
         .of(&run.variant(), (edge - exact) / spacing)
         .exactly(0.0, "edge of the plug at h − τ_y/(ρ g sinθ)")

@@ -44,9 +44,9 @@ fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
     };
     // a bracket of this width has its middle within half of it of the true angle
     let (limit, reason) = if nonlocal.is_some() {
-        (0.5 * flow.stopping_tolerance, "half the bracket between a slope where the layer stops and one where it flows")
+        (0.5 * flow.stopping_tolerance, "limit is half the gap between slopes where the layer stops and where it flows")
     } else {
-        (flow.stopping_tolerance, "width of the bracket: half for the angle inside it, half for the solver")
+        (flow.stopping_tolerance, "limit is the bracket's width: half for the angle's place, half for the solver")
     };
     // which condition holds at a free surface experiments say, not the model: they favour that under which the fluidity vanishes
     let judged = flow.surface_name().is_none_or(|surface| surface == "vanishing");
@@ -76,7 +76,7 @@ fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
         )
         .gated_by(
             judged.then_some(Limit::Within(-0.5, 0.5)),
-            "0.5°, the accuracy of measured angles of repose",
+            "0.5°: the accuracy of measured angles of repose",
         ),
     ]
 }
@@ -94,7 +94,7 @@ fn profile(flow: &FlowThicknessFlow, data: &LayerObservation) -> Option<[Metric;
             .exactly(0.0, "steady 1-D solution of the nonlocal law by finite volumes with 4000 cells")
             .gated(
                 Limit::AtMost(allowed),
-                "1 % with 20 particles, 0.5 % with 40; near h_stop, 0.1 % in friction is 1.2 % in velocity",
+                "limit 1 % with 20 particle rows, 0.5 % with 40: below 0.1 % in friction near the stopping thickness",
             ),
         FLUIDITY_FROUDE
             .of(&variant, froude_number(flow, data))
@@ -135,11 +135,11 @@ fn flow_rule(records: &[Record]) -> Vec<Metric> {
             .exactly(expected, "(41) solved for β at the slopes of the flows: an identity of the law")
             .gated(
                 Limit::Within(0.97 * expected, 1.03 * expected),
-                "3 %: 0.1 % in friction changes the velocity by 0.8 % (25°) to 2 % (22°)",
+                "3 %: an expected friction error of 0.1 % changes velocity by 0.8 % (25°) to 2 % (22°)",
             ),
         of(FLOW_COEFFICIENT_PUBLISHED).against(Some(published), "Table 1, β of glass beads", confidence).gated(
             Limit::Within(0.95 * published, 1.05 * published),
-            "5 %: I_0 was derived from β; an error of 0.1 % in friction changes β by up to 2 %",
+            "5 %: I_0 was derived from β; an expected friction error of 0.1 % changes β by 2 %",
         ),
     ]
 }

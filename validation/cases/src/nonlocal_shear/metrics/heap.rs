@@ -16,7 +16,7 @@ fn creep(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
     let mut metrics = decay(run, seen, exact);
     metrics.push(velocity_l2(run, seen, exact).gated(
         Limit::AtMost(2.0 * coarseness(run)),
-        "2 % with two particles per grain, 1 % with four: first order, as below a plate",
+        "limit 2 % with two particles per grain, 1 % with four: first-order error expected",
     ));
     metrics
 }

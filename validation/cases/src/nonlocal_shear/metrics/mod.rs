@@ -119,14 +119,14 @@ fn chute(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
         length_metric(WALL_LAYER.of(&variant, layer / diameter), expected / diameter, run),
         velocity_l2(run, seen, exact).gated(
             Limit::AtMost(5.0 * coarseness),
-            "5 % with two particles per grain: velocity scales as friction^14, so 5 % is 0.4 % of friction",
+            "5 % with two particles per grain: a friction error of 0.4 % gives 5 % (velocity ∝ friction^14)",
         ),
         FRICTION_ERROR
             .of(&variant, 100.0 * (implied / flow.wall_friction - 1.0))
             .exactly(0.0, EXACT)
             .gated(
                 Limit::Within(-0.4 * coarseness, 0.4 * coarseness),
-                "0.4 % with two particles per grain: this changes the velocity by 5 %",
+                "0.4 % with two particles per grain: a friction error that changes velocity by 5 %",
             )
             .with_snapshot_tolerance(0.1, 1e-2),
     ]
@@ -143,12 +143,12 @@ fn dragged_bed(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactSh
         TRACTION_ERROR
             .of(&variant, 100.0 * (mean(&seen.shear_stress) / traction - 1.0))
             .exactly(0.0, EXACT)
-            .gated(Limit::Within(-0.5, 0.5), "0.5 %: the traction hardly depends on errors of the velocity")
+            .gated(Limit::Within(-0.5, 0.5), "0.5 %: a narrow limit, as velocity errors hardly change the traction")
             .with_snapshot_tolerance(0.1, 1e-2),
     );
     metrics.push(velocity_l2(run, seen, exact).gated(
         Limit::AtMost(2.0 * coarseness(run)),
-        "2 % with two particles per grain, 1 % with four: first order, layer six diameters thick",
+        "limit 2 % with two particles per grain, 1 % with four: first-order error expected",
     ));
     metrics
 }
@@ -188,10 +188,7 @@ fn decay(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
     let straight = TAIL_STRAIGHTNESS
         .of(&variant, found)
         .exactly(expected, EXACT)
-        .gated(
-            Limit::AtLeast(0.98),
-            "0.98: a line fits the logarithm of a near-exponential decay, but not that of a sharp edge",
-        )
+        .gated(Limit::AtLeast(0.98), "0.98: a line fits the logarithm of near-exponential decay, not of a sharp edge")
         .with_snapshot_tolerance(1e-3, 0.0);
     vec![length(TAIL), length(DEEP_TAIL), straight]
 }
@@ -203,7 +200,7 @@ fn length_metric(metric: Metric, expected: f64, run: &NonlocalShearFlow) -> Metr
         .exactly(expected, EXACT)
         .gated(
             Limit::Within((1.0 - allowed) * expected, (1.0 + allowed) * expected),
-            "5 % with two particles per grain, the fewest that resolve 1.2 diameters; 2.5 % with four",
+            "limit 5 % with two particles per grain, the fewest that resolve 1.2 diameters; 2.5 % with four",
         )
         .with_snapshot_tolerance(5e-3, 0.0)
 }

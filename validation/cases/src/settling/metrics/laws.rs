@@ -9,12 +9,12 @@ use bagnold_solver::material::drag::DragLaw;
 
 /// Laws of one sphere that claim the standard curve: up to which Reynolds number, and within how much `[%]`.
 const CURVES: [(DragLaw, f64, f64, &str); 2] = [
-    (DragLaw::SchillerNaumann, 500.0, 5.0, "5 %, stated by Clift, Grace & Weber for this fit up to Re = 800"),
+    (DragLaw::SchillerNaumann, 500.0, 5.0, "5 %: stated by Clift, Grace & Weber for this fit up to Re = 800"),
     (
         DragLaw::MorsiAlexander,
         40_000.0,
         6.0,
-        "6 %: fits to the same experiments differ by 5 %; steps between the formula's ranges add 1 %",
+        "6 %: fits to the same experiments differ by 5 %, steps between formula ranges add 1 %",
     ),
 ];
 
@@ -34,7 +34,7 @@ pub(super) fn all() -> Vec<Metric> {
         LAW_SLIP_ERROR
             .of(&Variant::of("law", law.name()), largest(slip_deviations(law)))
             .against(Some(0.0), "the printed law, solved outside of this program", Confidence::High)
-            .gated(Limit::AtMost(5e-5), "5e-5 %, half of the table's seventh digit; the formula is the same")
+            .gated(Limit::AtMost(5e-5), "5e-5 %: half of the table's seventh digit; the formula is the same")
             .with_snapshot_tolerance(0.0, 1e-5)
     });
     curves.chain(slips).collect()

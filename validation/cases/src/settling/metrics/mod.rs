@@ -62,7 +62,7 @@ fn error(
 fn alone(flow: &SettlingFlow, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
     let (series, root) = (&data.series, flow.root());
     let error = |quantity, array: &[f64]| error(quantity, variant, series, array, (root, ALONE));
-    let reason = "the project's aim: 1 % of the force balance's velocity, averaged over the run's last 60 %";
+    let reason = "1 % of the force balance's velocity over the run's last 60 %: the project's aim";
     vec![
         error(TERMINAL_VELOCITY_ERROR, &series.slip).gated(Limit::Within(-1.0, 1.0), reason),
         momentum(variant, data.momentum_error),
@@ -74,13 +74,13 @@ fn together(flow: &SettlingFlow, variant: &Variant, data: &SettlingObservation) 
     let (slip, alone, fluid) = (flow.root(), flow.sphere_velocity(), 1.0 - flow.solid_fraction);
     let error = |quantity, array: &[f64], root| error(quantity, variant, series, array, root);
     let within = Limit::Within(-0.03, 0.03);
-    let reason = "0.03 %: grains perturbed by a tenth of their distance change the mean velocity only to second order";
+    let reason = "0.03 %: expected second-order effect of grains perturbed by a tenth of their distance";
     let mut metrics = vec![
         error(SLIP_ERROR, &series.slip, (slip, HINDERED)).gated(within, reason),
         error(SINKING_ERROR, &series.sinking, (fluid * slip, VESSEL)).gated(within, reason),
     ];
     if flow.is_dilute() {
-        let reason = "the project's aim: 1 %; φ = 0.002 alone slows settling by 0.1 to 0.6 %";
+        let reason = "1 %: the project's aim; solid fraction 0.002 slows settling by 0.1 to 0.6 % (expected)";
         let terminal = error(TERMINAL_VELOCITY_ERROR, &series.slip, (alone, SPHERE));
         metrics.insert(0, terminal.gated(Limit::Within(-1.0, 1.0), reason));
     } else {
@@ -109,7 +109,7 @@ fn momentum(variant: &Variant, error: f64) -> Metric {
         .exactly(0.0, "change of momentum = impulse of gravity and floor, in every step")
         .gated(
             Limit::AtMost(1e-11),
-            "1e-11 of the grains' weight: rounding over a thousand particles; pairs exchange opposite impulses",
+            "1e-11 of the grains' weight: expected rounding over a thousand particles; pairs exchange opposite impulses",
         )
         .with_snapshot_tolerance(0.0, 1e-10)
 }

@@ -16,7 +16,7 @@ pub(crate) fn metrics(table: &str, laws: &[(&str, f64)]) -> Vec<Metric> {
         LAW_ERROR
             .of(&Variant::of("law", law), 100.0 * (value / printed(law).unwrap_or(f64::NAN) - 1.0))
             .against(Some(0.0), "the printed law, evaluated outside of the program", Confidence::High)
-            .gated(Limit::Within(-5e-5, 5e-5), "5e-5 %, half of the table's seventh digit; the formula is the same")
+            .gated(Limit::Within(-5e-5, 5e-5), "5e-5 %: half of the table's seventh digit; the formula is the same")
             .with_snapshot_tolerance(0.0, 1e-6)
     };
     laws.iter().map(metric).collect()

@@ -222,7 +222,7 @@ impl ListOfRuns {
         all
     }
 
-    /// Leaves out what the list says of a parameter: every run has another value of it.
+    /// Removes a parameter from the list, because each run sets its own value.
     pub fn forget(&mut self, path: &str) {
         let is_it = |other: &str| is_same_or_within(path, other);
         self.vary.retain(|varied| !is_it(&varied.path));

@@ -307,7 +307,7 @@ impl<F: Flow> RunList<F> {
         Self::new(case, typed(case, table)?, list)
     }
 
-    /// Keys that tell a run apart from others with its own name.
+    /// Keys that distinguish a run from other runs of the case.
     pub(in crate::case) fn label(&self, run: &F) -> Variant {
         let ListedFlows { flows, labels } = self.listed();
         flows.iter().position(|own| own == run).map(|place| labels[place].clone()).unwrap_or_default()

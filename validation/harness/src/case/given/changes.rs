@@ -17,9 +17,9 @@ use toml::{Table, Value};
 /// User's changes to the parameters of a tier.
 #[derive(Debug, Clone, Default)]
 pub struct Changes<'a> {
-    /// A file's fields, without `case` and `tier`, and where it stands.
+    /// Path of a case file and its fields without `case` and `tier`.
     pub file: Option<(&'a Path, Table)>,
-    /// `path=value` arguments, applied after the file; each gives fields of its own.
+    /// `path=value` arguments, applied after the file; each sets different fields.
     pub settings: &'a [String],
     /// Resource limits of the runs.
     pub limits: Limits,
@@ -320,7 +320,7 @@ fn entry_of(key: &str) -> Option<(&str, usize)> {
     Some((list, index.parse().ok()?))
 }
 
-/// Lays values over those of a table by their dotted paths: tables field by field, everything else as a whole.
+/// Overwrites values of a table: nested tables field by field, other values as a whole.
 pub(in crate::case) fn lay_over(table: &mut Table, over: &Table) {
     over.iter().for_each(|(path, value)| lay_at(table, path, value));
 }

@@ -88,7 +88,7 @@ impl ParameterError {
         self
     }
 
-    /// Says that no case of a report has a field.
+    /// Marks the error: no case of the report has the field.
     pub fn in_no_case(mut self) -> Self {
         if let Self::Field(FieldError { value, .. }) = &mut self {
             "no case of this report has this field".clone_into(value);
@@ -109,7 +109,7 @@ impl ParameterError {
         if let Some(file) = file { self.in_file(file) } else { self }
     }
 
-    /// Says in which plan it stands, the settings of which are values of the plan.
+    /// Adds the plan file that contains the field; settings of a plan are its values.
     pub fn in_plan(mut self, plan: &Path) -> Self {
         match &mut self {
             Self::Field(FieldError { origin, .. }) if matches!(origin, Some(Origin::Setting(_))) => *origin = None,

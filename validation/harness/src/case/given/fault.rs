@@ -47,13 +47,13 @@ pub(in crate::case) fn in_parameters(fault: Fault, case: &str, known: &[String])
     }
 }
 
-/// A path that the parameters of a case do not have; `known` are those that it has, the ones beside it first.
+/// Error of an unknown field; `known` are the fields of the case, those of the same table first.
 pub(in crate::case) fn unknown_field(path: &str, known: &[&[String]], case: &str) -> FieldError {
     let guess = did_you_mean(&nearest_path(path, known));
     FieldError::finding(path, UNKNOWN_FIELD, &format!("{guess}`bagnold show {case}` prints all fields"))
 }
 
-/// The rule that a value breaks: that it has no unit, where a word of a few letters stands behind a number.
+/// Rule for the message of a value: "a number without a unit" if a short word follows a number, otherwise `rule`.
 pub(in crate::case) fn without_unit(rule: String, value: &str) -> String {
     let behind = value.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c)).trim_start();
     let is_unit = behind.chars().next().is_some_and(|first| first.is_alphabetic() || "°%".contains(first));

@@ -18,7 +18,7 @@ pub struct CaseFile {
     pub path: PathBuf,
     /// The case that it describes.
     pub case: String,
-    /// The tier whose parameters fill what the file leaves out.
+    /// Tier that supplies parameters missing in the file.
     pub tier: Option<Tier>,
     /// Files with measurements to be drawn into its figures; beside the file, unless they say otherwise.
     pub overlay: Vec<MeasuredFiles>,
@@ -95,7 +95,7 @@ impl CaseFile {
         Ok(Self { path: path.to_owned(), case, tier, overlay: Vec::new(), output: None, fields })
     }
 
-    /// Parameters of a plan: those of a case, or of the case file that it names as its base, under values of its own.
+    /// Parameters of a plan: those of its case or base file, overwritten by the values of the plan.
     ///
     /// # Errors
     /// Neither a case nor a base, a base of another case, a file that cannot be read.

@@ -102,7 +102,7 @@ impl ExternalSchema {
 pub struct ExternalObservation<O> {
     /// The observation; what was not given is not a number, or empty.
     pub observation: O,
-    /// Names of the metrics that what was given suffices for; no other is judged.
+    /// Names of the metrics that the given data suffice for; other metrics are not judged.
     pub measured: Vec<&'static str>,
 }
 
@@ -120,7 +120,7 @@ pub struct ExternalResult {
 }
 
 impl ExternalResult {
-    /// Whether a metric may be judged: what was given suffices for it in its run, or in any where it is of several.
+    /// Whether a metric may be judged: the data given for its run, or for one of its runs, suffice.
     pub fn is_measured(&self, metric: &Metric) -> bool {
         let suffices = |names: &[&str]| names.contains(&metric.name.as_str());
         let own: Vec<_> = self.measured.iter().filter(|(variant, _)| metric.variant.includes(variant)).collect();
@@ -160,7 +160,7 @@ impl ExternalData {
         }
     }
 
-    /// Whether there is nothing but, perhaps, single numbers.
+    /// Whether no pictures, series or profile are given; single numbers may be.
     pub fn is_empty(&self) -> bool {
         self.pictures.is_empty() && self.series.is_empty() && self.profile.is_empty()
     }

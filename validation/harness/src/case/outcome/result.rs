@@ -62,7 +62,7 @@ pub struct CaseResult {
     pub tier: Tier,
     /// The parameters as run: a complete file for `bagnold run`.
     pub parameters_toml: String,
-    /// The command that repeats it; `case.toml` stands for a file holding `parameters_toml`.
+    /// Command that repeats the case; `case.toml` stands for a file holding `parameters_toml`.
     pub command: String,
     /// Judged and observed numbers in report order.
     pub metrics: Vec<Metric>,
@@ -157,7 +157,7 @@ impl CaseResult {
     }
 }
 
-/// Hash over those of several states.
+/// Hash over the hashes of several states.
 pub fn hash_of_states<'a>(states: impl Iterator<Item = &'a String>) -> String {
     let mut hash = Sha256::new();
     for state in states {

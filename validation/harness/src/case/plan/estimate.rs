@@ -144,7 +144,7 @@ impl Limits {
     /// Whatever is asked for.
     pub const NONE: Self = Self { memory: f64::INFINITY, core_hours: f64::INFINITY };
 
-    /// Those of the environment or the usual ones, except those given: gibibytes of memory and hours of one core.
+    /// Limits on memory `[GiB]` and core hours `[h]`: those given, else of the environment, else the defaults.
     pub fn of(memory: Option<f64>, core_hours: Option<f64>) -> Self {
         let usual = Self::default();
         Self {

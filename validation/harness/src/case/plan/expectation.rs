@@ -8,8 +8,8 @@ pub fn speed_up(threads: usize) -> f64 {
     1.0 + GAIN * (threads.max(1) - 1) as f64
 }
 
-/// Wall time of runs on so many threads, from their times on one core; all in `[s]`: that of the longest run with its share of the
-/// threads, or of all threads at work on all runs.
+/// Wall time of runs on a number of threads `[s]`, from their times on one core `[s]`: the larger of the time of the longest run on
+/// its share of the threads and the time of all runs on all threads.
 pub fn wall_time(core_seconds: &[f64], threads: usize) -> f64 {
     let share = threads / core_seconds.len().max(1);
     let longest = core_seconds.iter().copied().fold(0.0, f64::max) / speed_up(share);

@@ -6,7 +6,7 @@ use crate::input::MeasuredFiles;
 use crate::metric::Variant;
 use std::path::Path;
 
-/// A case with what is to differ from its tier's parameters.
+/// A case and the changes of its tier's parameters.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Request<'a> {
     /// Name of a case, or path of a TOML file that describes one.

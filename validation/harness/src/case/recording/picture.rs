@@ -70,7 +70,7 @@ where
     frame
 }
 
-/// The particles of its walls, with what the flow has given them.
+/// Wall particles with the quantities extrapolated from the flow.
 pub(super) fn of_walls<const D: usize>(simulation: &Simulation<D>) -> Option<Frame> {
     let particles = simulation.particles();
     let walls = particles.flow_count()..particles.flow_count() + particles.wall_count();

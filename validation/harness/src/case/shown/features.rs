@@ -26,7 +26,7 @@ pub struct Features {
 const SWITCH: &str = "0 switches it off";
 
 impl Features {
-    /// Those of all cases of a registry.
+    /// Features of all cases of a registry.
     pub fn of(registry: Registry) -> Self {
         let mut features = Self::default();
         let fields = |schema: &'static Value| schema["properties"].as_object().into_iter().flatten();

@@ -12,7 +12,7 @@ pub(in crate::case) fn of_file(case: &str, summary: &str, tier: Tier, parameters
         for keyword in ["$schema", "title"] {
             keywords.remove(keyword);
         }
-        keywords.insert("description".to_owned(), "The tier whose parameters fill what the file leaves out.".into());
+        keywords.insert("description".to_owned(), "Tier that supplies parameters missing in the file.".into());
         keywords.insert("default".to_owned(), tier.name().into());
     }
     let mut fields = Map::new();

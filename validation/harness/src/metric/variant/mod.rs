@@ -56,7 +56,7 @@ impl Variant {
         other.parts().all(|(key, value)| self.get(key) == Some(value))
     }
 
-    /// The run that a number of this variant is of: of those whose keys it has, the one with most; none where it is of several.
+    /// Run to which a metric of this variant belongs: the run with most keys, all contained in the variant; `None` for several.
     pub fn run_among<'a>(&self, runs: &'a [Self]) -> Option<&'a Self> {
         runs.iter().filter(|run| self.includes(run)).max_by_key(|run| run.parts().count())
     }
@@ -85,7 +85,7 @@ impl Variant {
         file_name(&self.to_string())
     }
 
-    /// End of a file name that tells this variant from others; empty where it has no key.
+    /// End of a file name that distinguishes this variant; empty without keys.
     pub fn suffix(&self) -> String {
         if self.is_empty() { String::new() } else { format!("-{}", self.file_name()) }
     }

@@ -18,7 +18,7 @@ const SCATTERS: [f64; 4] = [1e-8, 1e-3, 1e-1, 1.0];
 /// Share of the polynomial's error to which it must come down to be worth its coefficients.
 const WORTH: f64 = 0.5;
 
-/// Points that are used at most, the best; more cost much and say little about the best.
+/// Largest number of points; the best ones are used, because more points cost much and add little near the best.
 pub(super) const MOST_POINTS: usize = 100;
 
 /// The random functions of all residuals: one row per point, one column per residual.
@@ -67,7 +67,7 @@ impl KrigingCorrection {
         error.is_finite().then(|| Self { points: points.to_vec(), length, coefficients, error })
     }
 
-    /// Points that it knows.
+    /// Number of points that the correction interpolates.
     pub(super) fn len(&self) -> usize {
         self.points.len()
     }

@@ -112,7 +112,7 @@ impl Emulator {
         Self { degree, centre, scale, correction, coefficients, compact, points, leave_one_out }
     }
 
-    /// The polynomials alone: where runs scatter, what they miss at a point is luck.
+    /// Emulator without interpolation of residuals, for runs that scatter randomly.
     pub fn polynomials(mut self) -> Self {
         let known = self.degree.coefficients(self.dimensions());
         self.coefficients = self.coefficients.columns(0, known).into_owned();

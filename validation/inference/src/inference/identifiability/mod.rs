@@ -96,7 +96,7 @@ pub enum FindingKind {
     },
 }
 
-/// A finding and the sentence that tells it.
+/// A finding and the sentence that describes it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// Kind of finding.

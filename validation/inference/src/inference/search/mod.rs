@@ -187,7 +187,7 @@ pub fn search<M: Evaluate>(
     continue_search(model, Vec::new(), start, method, budget)
 }
 
-/// The same with points that were evaluated before and count for nothing in the budget.
+/// Search with points that were evaluated before and do not count in the budget.
 ///
 /// # Errors
 /// The same.
@@ -235,7 +235,7 @@ pub fn continue_search<M: Evaluate>(
 pub(super) struct Leads {
     /// Lowest evaluated points of branches without a known minimum: the model descends from each.
     pub(super) branches: Vec<Vec<f64>>,
-    /// Whether such a descent ends where nothing parts it from a known minimum.
+    /// Whether the descent ends at a minimum that is already known.
     pub(super) ends_at_known: bool,
     /// Points where nothing is known, to be evaluated first.
     pub(super) scouts: Vec<Vec<f64>>,

@@ -36,7 +36,7 @@ type EvaluatedStart = (Vec<f64>, Vec<f64>);
 const RESCUE_BATCH: usize = 4;
 
 impl<'a, M: Evaluate> Recorder<'a, M> {
-    /// One that knows no point yet.
+    /// Recorder without evaluated points.
     pub fn new(model: &'a mut M, budget: usize) -> Self {
         Self::with(model, Vec::new(), budget)
     }
@@ -58,8 +58,8 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
         &self.history
     }
 
-    /// The residuals at each point, new ones in one batch. Of points beyond the budget none is evaluated, those before
-    /// them are.
+    /// The residuals at each point, new ones in one batch. Points beyond the budget are not evaluated, the
+    /// points before them are.
     pub fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Halt<M::Error>> {
         let mut fresh: Vec<Vec<f64>> = Vec::new();
         for point in points {

@@ -64,7 +64,7 @@ fn history(outcome: &CalibrationResult) -> Option<Figure> {
         }
         panels.push(panel);
     }
-    let caption = "All evaluations of the search, followed by those of the ends of the intervals.";
+    let caption = "All evaluations of the search, followed by those at the ends of the intervals.";
     Some(Figure::new("history", caption, panels))
 }
 
@@ -203,8 +203,8 @@ fn sensitivity(outcome: &CalibrationResult) -> Option<Figure> {
     }
     let mut panel = Panel::new(
         "",
-        Axis::linear("mean effect μ* [σ a range]"),
-        Axis::linear("scatter σ of the effects [σ a range]"),
+        Axis::linear("mean effect μ* [σ per range]"),
+        Axis::linear("scatter σ of the effects [σ per range]"),
     );
     for (slot, effect) in outcome.sensitivity.iter().enumerate() {
         if effect.effect.is_finite() && effect.spread.is_finite() {
@@ -213,8 +213,8 @@ fn sensitivity(outcome: &CalibrationResult) -> Option<Figure> {
     }
     Some(Figure::new(
         "sensitivity",
-        "Morris screening over the whole ranges: to the right, parameters that the data feel; high up, those that \
-         act non-linearly or together with others.",
+        "Morris screening over the whole ranges: the data are sensitive to parameters on the right; those at \
+         the top act nonlinearly or interact with others.",
         vec![panel],
     ))
 }

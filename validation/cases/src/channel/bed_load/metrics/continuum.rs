@@ -50,7 +50,7 @@ pub(super) fn beside_layer(
             )
             .gated(
                 Limit::Within(-0.01, 0.01),
-                "0.01 for particles that cross a gradient of φ; drag and pressure only exchange momentum between water and grains",
+                "0.01: expected residual of particles that cross solid-fraction gradients; drag and pressure only exchange momentum",
             )
             .with_snapshot_tolerance(0.1, 1e-3),
     ];
@@ -60,7 +60,7 @@ pub(super) fn beside_layer(
         |quantity, estimate, exact| channel::observed(quantity, variant, estimate, 1.0).exactly(exact, source);
     let profile = &data.channel.profile;
     let (most, reason) = if dilating {
-        (0.1, "0.1 u_*: the profile may be shifted by 1/12 of a 1 mm spacing")
+        (0.1, "0.1 u_*: expected error of profiles shifted by 1/12 of a 1 mm spacing")
     } else {
         (0.25, "0.25 u_*: a profile shifted by 0.2 mm, where velocity grows by 1.4 u_*/mm")
     };
@@ -70,7 +70,7 @@ pub(super) fn beside_layer(
         observed(FLUID_VELOCITY_RMS, rms, 0.0).gated_by(gate(Limit::AtMost(most)), reason),
         observed(FLUID_VELOCITY_MEAN, mean, 1.0).gated_by(
             gate(Limit::Within(0.97, 1.03)),
-            "3 %: a shifted profile is wrong by up to 0.25 u_*; the depth average is 10 u_*",
+            "3 %: a shifted profile is expected to err by 0.25 u_*, 2.5 % of the depth average",
         ),
     ]);
     if run.formulation == BedLoadFormulation::Porous {
@@ -85,7 +85,7 @@ pub(super) fn beside_layer(
         ),
         DRAG_RATIO.of(variant, force).exactly(1.0, source).with_snapshot_tolerance(0.0, 0.02).gated_by(
             gate(Limit::Within(0.95, 1.05)).filter(|_| dilating),
-            "5 %: the bed's top cuts bins; drag balances the water's stress for any profile",
+            "5 %: expected error of bins cut by the bed's top; the water's stress fixes the total drag",
         ),
     ]);
     let rate = data.mean_transport();
@@ -93,12 +93,12 @@ pub(super) fn beside_layer(
         let expected = run.formula_transport();
         metrics.push(by_formula(channel::observed(PREDICTED_TRANSPORT, variant, rate, 1.0), run).gated(
             Limit::Within(MEASURED_BAND.0 * expected, MEASURED_BAND.1 * expected),
-            "range of 90 % of Meyer-Peter & Müller's runs with τ* ≥ 0.1; no parameter is fitted",
+            "limits enclose 90 % of Meyer-Peter & Müller's runs with Shields numbers τ* ≥ 0.1; nothing is fitted",
         ));
     }
     let (within, reason) = match dilating {
-        true if run.spacing() < FINE => (0.08, "8 %, half the limit for a 1 mm spacing"),
-        true => (0.15, "15 %: the moving layer is few spacings thick, at 2 % slope one or two"),
+        true if run.spacing() < FINE => (0.08, "8 %: about half of the 15 % allowed with a 1 mm spacing"),
+        true => (0.15, "15 %: expected error of moving layers few spacings thick, one or two at 2 % slope"),
         false => (0.1, "10 %: the grains' profile may be shifted by a third of a 1 mm spacing"),
     };
     metrics.push(

@@ -74,7 +74,7 @@ pub(super) fn of_pair(records: &[BedLoadRecord], record: &BedLoadRecord) -> Vec<
             .of(&variant, start)
             .exactly(1.0, "the kept state is steady")
             .with_snapshot_tolerance(0.0, 2e-3)
-            .gated(Limit::Within(0.98, 1.02), "2 %: profiles of state and runs, each shifted by 0.1 of 10 u_*"),
+            .gated(Limit::Within(0.98, 1.02), "2 %: kept state and runs may each err by 0.1 u_*, 1 % of their mean"),
     ];
     metrics.extend(beside_layer(run, &data, &variant, (true, true)));
     let rest = records.iter().find(|(other, _)| other.rests() && other.slope == run.slope).map(|(_, rest)| &rest.data);
@@ -94,7 +94,7 @@ pub(super) fn of_pair(records: &[BedLoadRecord], record: &BedLoadRecord) -> Vec<
             .exactly(expected, "the 1-D layers over a moving bed and over one at rest")
             .gated(
                 Limit::Within(expected - DEFICIT, expected + DEFICIT),
-                "0.6 u_*: a bed level uncertain by 0.2 mm, where velocity grows by 2.9 u_* per mm",
+                "0.6 u_*: expected error of bed levels uncertain by 0.2 mm, where velocity grows by 2.9 u_*/mm",
             )
     }));
     metrics

@@ -239,7 +239,7 @@ fn grains(variant: &Variant, run: &BedLoadFlow, data: &BedLoadObservation, judge
         let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
         channel::observed(quantity, variant, estimate, 1.0).against(None, source, Confidence::Medium).gated_by(
             judged.then_some(limit),
-            "the paper states only the sign; profiles with too few points for a curvature fail",
+            "0: the paper states only the curvature's sign; profiles with too few points fail",
         )
     }));
     let drag = data.drag_profile();

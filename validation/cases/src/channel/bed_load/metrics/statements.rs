@@ -86,7 +86,7 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord) -> V
             stated(near, None, "near the bed slower than without moving grains"),
             stated(far, Some(0.0), "above as fast as without moving grains").gated_by(
                 gate(Limit::Within(-0.25, 0.25)),
-                "0.25 u_*, as for clear water: 2 % of the depth-averaged velocity",
+                "0.25 u_* (friction velocity): 2 % of the depth-averaged velocity",
             ),
             stated(relative, None, "near the bed slower than without moving grains, above as fast").gated_by(
                 gate(Limit::AtMost(-0.1)),

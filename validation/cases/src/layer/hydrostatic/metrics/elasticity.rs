@@ -25,13 +25,13 @@ pub(super) fn all(law: &Rheology) -> Vec<Metric> {
             .exactly(0.0, "τ = G γ in simple shear below the yield")
             .gated(
                 Limit::Within(-1e-6, 1e-6),
-                "1e-6 %: one small step of Hooke's law is exact to γ² (1e-8 %) and rounding",
+                "1e-6 %: one small step of Hooke's law is exact to rounding and 1e-8 % (strain squared)",
             )
             .with_snapshot_tolerance(0.0, 1e-6),
         STRESS_ROTATION_ERROR
             .of(&variant, 100.0 * turned(law))
             .exactly(0.0, "s = R s₀ Rᵀ after an eighth of a turn: a rigid rotation changes no stress but its direction")
-            .gated(Limit::AtMost(0.5), "0.5 %: a thousand explicit steps of π/4000 enlarge the stress by 0.12 %")
+            .gated(Limit::AtMost(0.5), "0.5 %: four times the 0.12 % expected of a thousand explicit steps of π/4000")
             .with_snapshot_tolerance(0.0, 1e-4),
     ]
 }

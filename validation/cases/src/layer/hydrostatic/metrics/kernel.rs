@@ -39,7 +39,7 @@ pub(super) fn all(numerics: &Numerics) -> Vec<Metric> {
                 .exactly(0.0, source)
                 .gated(
                     Limit::Within(-1e-6, 1e-6),
-                    "1e-6 %: error of the midpoint rule with 20 000 cells; the identity is exact",
+                    "1e-6 %: expected error of the midpoint rule with 20 000 cells; the identity is exact",
                 )
                 .with_snapshot_tolerance(0.0, 1e-6)
         };

@@ -72,12 +72,12 @@ fn at_rest((run, record): &HydrostaticRecord) -> Vec<Metric> {
         PRESSURE_NOISE
             .of(&variant, mean(&series.pressure_noise))
             .exactly(0.0, "smooth pressure")
-            .gated(Limit::AtMost(1e-3), "0.1 % of ρ g H, rms about a local linear fit within 2 h")
+            .gated(Limit::AtMost(1e-3), "0.1 % of the bed's pressure ρ g H: a tenth of the profile's allowed error")
             .with_snapshot_tolerance(0.1, 1e-6),
         quantity
             .of(&variant, 100.0 * profile_l2(run, &profile.height, pressure))
             .exactly(0.0, EXACT)
-            .gated(Limit::AtMost(1.0), "the project's aim: 1 % of the hydrostatic profile")
+            .gated(Limit::AtMost(1.0), "1 % of the hydrostatic profile: the project's aim")
             .with_snapshot_tolerance(0.02, 1e-3),
     ];
     let scale = energy_ledger::EnergyScale::AtRest(run.energy_scale());
@@ -92,7 +92,7 @@ fn at_rest((run, record): &HydrostaticRecord) -> Vec<Metric> {
         HEIGHT_DRIFT
             .of(&variant, 100.0 * (around(2.0) / around(1.0) - 1.0))
             .exactly(0.0, "a layer at rest keeps its height")
-            .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height between 1 s and 2 s")
+            .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height: layers at rest keep it from 1 s to 2 s")
             .with_snapshot_tolerance(0.1, 1e-4),
         RMS_SPEED.of(&variant, speed).exactly(0.0, "rest").with_snapshot_tolerance(0.5, 1e-5),
     ]);
