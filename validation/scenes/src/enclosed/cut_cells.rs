@@ -5,8 +5,9 @@
 
 use super::behind_walls::Site;
 use super::lattice::SiteLattice;
+use crate::checkpoint::is_interrupted;
 use bagnold_solver::vector::Vector;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeSet, HashMap};
 
 /// Samples along an edge of a cell, in the plane and in space.
 const SAMPLES: [usize; 2] = [8, 4];
@@ -26,20 +27,23 @@ pub(super) fn parts<const D: usize>(
     sites: &[Site<D>],
     is_inside: impl Fn(&Vector<D>) -> bool,
 ) -> Vec<Part<D>> {
-    let particles: BTreeMap<[i64; D], usize> = sites.iter().enumerate().map(|(k, site)| (site.cell, k)).collect();
+    let particles: HashMap<[i64; D], usize> = sites.iter().enumerate().map(|(k, site)| (site.cell, k)).collect();
     let around = |cell: [i64; D], reach: i64| {
         let side = 2 * reach + 1;
         (0..side.pow(D as u32))
             .map(move |k| std::array::from_fn(|axis| cell[axis] + k / side.pow(axis as u32) % side - reach))
     };
-    let beside: BTreeSet<[i64; D]> = sites.iter().flat_map(|site| around(site.cell, 1)).collect();
+    let is_inner = |cell: &[i64; D]| around(*cell, 1).all(|near| particles.contains_key(&near));
     // shares, and their moments about the sites
-    let mut sums = vec![(0.0, Vector::<D>::zeros()); sites.len()];
+    let whole = |site: &Site<D>| (if is_inner(&site.cell) { 1.0 } else { 0.0 }, Vector::<D>::zeros());
+    let mut sums: Vec<(f64, Vector<D>)> = sites.iter().map(whole).collect();
+    let outer = sites.iter().zip(&sums).filter(|(_, sum)| sum.0 == 0.0);
+    let beside: BTreeSet<[i64; D]> = outer.flat_map(|(site, _)| around(site.cell, 1)).collect();
     let edge = SAMPLES[D - 2];
     let samples = edge.pow(D as u32);
     for cell in beside {
-        if around(cell, 1).all(|near| particles.contains_key(&near)) {
-            sums[particles[&cell]].0 += 1.0;
+        // the filling ends soon after an interruption, which its next part reports
+        if is_inner(&cell) || is_interrupted() {
             continue;
         }
         let near: Vec<usize> = around(cell, 2).filter_map(|near| particles.get(&near).copied()).collect();
