@@ -65,3 +65,22 @@ pub(super) fn parts<const D: usize>(
     };
     sites.iter().zip(sums).map(part).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cells of 1 m up to a wall at 10.3 m, which leaves the cell behind it 0.3 m: the last particle has 1.3 m about 9.65 m.
+    #[test]
+    fn the_last_particle_has_the_cut_cell_and_starts_at_the_centre_of_both() {
+        let lattice = SiteLattice::<2>::common(1.0);
+        let cells = (0..10).flat_map(|i| (0..7).map(move |j| [i, j]));
+        let site = |cell| Site { cell, place: lattice.middle(&cell), body: 0, nearest: None };
+        let sites: Vec<Site<2>> = cells.map(site).collect();
+        let own = parts(&lattice, &sites, |place| place[0] > 0.0 && place[0] < 10.3);
+        let (edge, inner) = (&own[9 * 7 + 3], &own[8 * 7 + 3]);
+        assert!((edge.volume - 1.3).abs() < 0.07 && (edge.centre[0] - 9.65).abs() < 0.05, "{edge:?}");
+        assert!((edge.centre[1] - 3.5).abs() < 1e-12, "{edge:?}");
+        assert_eq!((inner.volume, inner.centre), (1.0, sites[8 * 7 + 3].place), "away from the wall nothing changes");
+    }
+}

@@ -53,7 +53,9 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
                 let is_in_front = |wall: NearestWall| wall.distance > 0.0 || permissions.walls[wall.wall].1;
                 is_held && self.sides.hold(place) && walls.nearest(place).is_none_or(is_in_front)
             });
-            free.extend(own.into_iter().zip(parts).map(|(site, part)| (part, *lattice, site.body)));
+            // a sliver that is thinner than a sample has no particle
+            let filled = own.into_iter().zip(parts).filter(|(_, part)| part.volume > 0.0);
+            free.extend(filled.map(|(site, part)| (part, *lattice, site.body)));
         }
         let share = if all == 0 { 0.0 } else { hidden as f64 / all as f64 };
         let is_stressed = self.preparation == BodyPreparation::Stressed;
