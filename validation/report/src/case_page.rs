@@ -64,7 +64,7 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> Value {
         "name": case.name,
         "summary": case.summary,
         "description": case.description.split("\n\n").collect::<Vec<_>>(),
-        "mark": VerdictMark::of_rank(judged.rank()),
+        "mark": VerdictMark::of_case(judged),
         "statement": case_statement(judged),
         "failures": failures::of(std::slice::from_ref(judged)),
         "groups": groups(rows, &judged.metrics),

@@ -21,7 +21,7 @@ fn cell(covered: Option<&CaseCoverage>) -> Value {
             if covered.failing > 0 {
                 parts.push(format!("{} fail", covered.failing));
             }
-            let (class, failing) = if covered.failing > 0 { ("expected", "✗") } else { ("pass", "") };
+            let (class, failing) = if covered.failing > 0 { ("expected", "△") } else { ("pass", "") };
             (class, letters + failing, parts.join("; "))
         }
     };

@@ -37,6 +37,7 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<serde_json::Value> {
                 "description": description(case.case.quantities, &judged.metric.name),
                 "statement": statement(judged).replacen(", ", &off(judged.metric), 1),
                 "note": short_note(judged),
+                "distance": distance(judged.metric),
             });
             // canonical studies are judged as a user's own are, and fail no louder than cases
             let owner = match severity {
@@ -49,6 +50,12 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<serde_json::Value> {
     // Stable: equal ones keep the order of the page.
     items.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
     items.into_iter().map(|(.., item)| item).collect()
+}
+
+/// The failure that is the furthest off; infinite distances, which JSON does not hold, are of zeros and of no number.
+pub(super) fn weakest(items: &[serde_json::Value]) -> Option<&serde_json::Value> {
+    let known = items.iter().filter_map(|item| Some((item["distance"].as_f64()?, item)));
+    known.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, item)| item)
 }
 
 /// The name of a quantity in words.

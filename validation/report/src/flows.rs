@@ -3,6 +3,7 @@
 use super::comparison::{self, Comparison, comparisons};
 use super::judgement::{JudgedCase, Judgement, KINDS, Tally};
 use super::power::rejected_inputs;
+use super::rows::limit;
 use super::view::VerdictMark;
 use super::{CaseReport, DrawnFigure};
 use crate::evidence::StatedUncertainty;
@@ -19,8 +20,8 @@ struct Flow {
     claims: &'static [Claim],
 }
 
-/// A sentence with the `{range}` and the `{number}` of the values of a metric, `{half}` of the widest bracket that they are the middle of,
-/// the `{wide}` largest relative uncertainty of 95 %, and the `{works}` that they are compared with.
+/// A sentence with the `{range}` and the `{number}` of the values of a metric, the `{limits}` of their gates, `{half}` of the widest bracket
+/// that they are the middle of, the `{wide}` largest relative uncertainty of 95 %, and the `{works}` that they are compared with.
 struct Claim {
     case: &'static str,
     metric: &'static str,
@@ -49,7 +50,7 @@ const FLOWS: [Flow; 4] = [
             metric: "velocity_l2",
             of: |_| true,
             value: |metric| metric.value,
-            says: "Velocity profiles of two materials differ by {range} % (L2) from the exact solution of the same law; no experiment is involved (runs: {number}).",
+            says: "Velocity profiles of two materials differ by {range} % (L2) from the exact solution of the same law (limits {limits}); no experiment is involved (runs: {number}).",
         }],
     },
     Flow {
@@ -189,12 +190,16 @@ fn sentence(claim: &Claim, cases: &[&CaseReport]) -> Option<String> {
     let mut works: Vec<&str> =
         own.iter().filter_map(|metric| metric.reference.as_ref()?.source.split(',').next()).collect();
     works.dedup();
+    let mut limits: Vec<String> =
+        own.iter().filter_map(|metric| Some(limit(metric.gate.as_ref()?.limit, &metric.unit))).collect();
+    limits.dedup();
     let relative = own.iter().filter_map(|metric| Some(COVERAGE * metric.uncertainty.standard()? / metric.value.abs()));
     let wide = two_digits(100.0 * relative.fold(0.0, f64::max));
     let says = claim
         .says
         .replace("{range}", &range)
         .replace("{half}", &decimals(3.0_f64.sqrt() * known))
+        .replace("{limits}", &limits.join(", "))
         .replace("{wide}", &wide);
     Some(says.replace("{works}", &works.join(" and ")).replace("{number}", &own.len().to_string()))
 }
@@ -215,7 +220,7 @@ fn span(values: impl Iterator<Item = f64>, digits: fn(f64) -> String) -> Option<
 const STATEMENTS: [(VerdictMark, &str); 4] = [
     (VerdictMark::PASS, "{number} of {all} comparisons with published results agree within their uncertainty, {share}"),
     (VerdictMark::EXPECTED, "{number} differ by more than their uncertainty; the least model errors are {share}"),
-    (VerdictMark::OBSERVED, "{number} are undecided, because part of the uncertainty is unknown"),
+    (VerdictMark::INCONCLUSIVE, "{number} are undecided, because part of the uncertainty is unknown"),
     (VerdictMark::OBSERVED, "{number} have no known uncertainty"),
 ];
 

@@ -14,10 +14,12 @@ use std::collections::BTreeMap;
 /// Severity of a gate, the one that weighs most first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// Outside its limit and not listed, or at odds with the list of expected failures.
+    /// Outside its limit and not listed, or worse than the list of expected failures says.
     NewFailure,
     /// Without a value, or of a run that cannot be judged.
     NotJudged,
+    /// Within its limit, or without one, though listed as an expected failure: the entry must go.
+    UnexpectedPass,
     /// Outside its limit, as listed.
     ExpectedFailure,
     /// Within its limit, but no control makes its value fail, or two standard uncertainties exceed its half width.
@@ -28,14 +30,21 @@ pub enum Severity {
 
 impl Severity {
     /// All, the one that weighs most first.
-    pub const ALL: [Self; 5] =
-        [Self::NewFailure, Self::NotJudged, Self::ExpectedFailure, Self::Inconclusive, Self::Pass];
+    pub const ALL: [Self; 6] = [
+        Self::NewFailure,
+        Self::NotJudged,
+        Self::UnexpectedPass,
+        Self::ExpectedFailure,
+        Self::Inconclusive,
+        Self::Pass,
+    ];
 
     /// Its word on pages, in files and on the terminal.
     pub const fn word(self) -> &'static str {
         match self {
             Self::NewFailure => "new failure",
             Self::NotJudged => "not judged",
+            Self::UnexpectedPass => "unexpected pass",
             Self::ExpectedFailure => "expected failure",
             Self::Inconclusive => "inconclusive",
             Self::Pass => "pass",
@@ -44,7 +53,7 @@ impl Severity {
 
     /// Whether it changes the exit code.
     pub fn is_error(self) -> bool {
-        self <= Self::NotJudged
+        self <= Self::UnexpectedPass
     }
 
     /// Severity of the gate of a metric; none without a gate that judges, unless the list names it.
@@ -55,7 +64,8 @@ impl Severity {
             Verdict::Fail if matches!(listed, ListStatus::AsListed(_)) => Self::ExpectedFailure,
             Verdict::Pass if !listed.is_error() && doubt.is_some() => Self::Inconclusive,
             Verdict::Pass if !listed.is_error() => Self::Pass,
-            _ => Self::NewFailure,
+            Verdict::Fail => Self::NewFailure,
+            _ => Self::UnexpectedPass,
         })
     }
 }
@@ -72,7 +82,7 @@ pub(super) const KINDS: [(MetricKind, &str); 4] = [
 /// observed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rank {
-    /// A gate that is a new or an expected failure, or not judged.
+    /// A gate that is a new or an expected failure, not judged, or passes unexpectedly.
     Failing(Severity),
     /// No gate fails, but a value has moved from the baseline.
     Moved,

@@ -89,7 +89,9 @@ fn status(judged: &JudgedMetric<'_>) -> Option<TestCaseStatus> {
     let mut status = match severity {
         Severity::Pass | Severity::Inconclusive => return Some(TestCaseStatus::success()),
         Severity::ExpectedFailure => TestCaseStatus::skipped(),
-        Severity::NewFailure | Severity::NotJudged => TestCaseStatus::non_success(NonSuccessKind::Failure),
+        Severity::NewFailure | Severity::NotJudged | Severity::UnexpectedPass => {
+            TestCaseStatus::non_success(NonSuccessKind::Failure)
+        }
     };
     let message = [statement(judged), judged.note()].join(". ");
     status.set_type(severity.word()).set_message(message.trim_end_matches(". "));

@@ -1,8 +1,8 @@
 //! Changes from the baseline, in tolerances.
 
 use super::baseline::{Baseline, Change, MetricKey};
-use super::judgement::{JudgedMetric, Judgement};
-use super::rows::value_and_baseline;
+use super::judgement::{JudgedMetric, Judgement, Severity};
+use super::rows::{limit, value_and_baseline};
 use super::view::{VerdictMark, anchor};
 use crate::number::{two_digits, with_unit};
 use serde_json::{Value, json};
@@ -23,8 +23,8 @@ pub(super) struct MovedValue {
     pub(super) tolerances: f64,
     /// Whether it has moved beyond its tolerance.
     pub(super) is_beyond: bool,
-    /// Whether it is still measured.
-    is_measured: bool,
+    /// Severity and limit of its gate now; nothing where it is no longer measured.
+    now: Option<(Option<Severity>, String)>,
     /// Value and baseline in words.
     statement: (String, String),
     /// Commit at which the baseline was made; empty where it is not known.
@@ -46,8 +46,7 @@ impl fmt::Display for MovedValue {
     }
 }
 
-/// Every change, the farthest first, then in the order of the cases. What has moved beyond its tolerance comes before what has
-/// not.
+/// Every change: gates that fail first, then what has moved beyond its tolerance, then the farthest.
 pub(super) fn moved(judgement: &Judgement<'_>) -> Vec<MovedValue> {
     let baseline = &judgement.report.baseline;
     let mut all = Vec::new();
@@ -58,15 +57,25 @@ pub(super) fn moved(judgement: &Judgement<'_>) -> Vec<MovedValue> {
             key: key.clone(),
             tolerances: f64::INFINITY,
             is_beyond: true,
-            is_measured: false,
+            now: None,
             statement: ("no longer measured".to_owned(), String::new()),
             commit: baseline.commit(&key.case),
         }));
     }
     all.retain(|moved| moved.is_beyond || moved.tolerances >= LEAST);
     // Stable: equal ones keep the order of the page.
-    all.sort_by(|a, b| b.is_beyond.cmp(&a.is_beyond).then(b.tolerances.total_cmp(&a.tolerances)));
+    let order = |a: &MovedValue, b: &MovedValue| {
+        let states = (b.is_beyond, b.is_new_failure()).cmp(&(a.is_beyond, a.is_new_failure()));
+        states.then(b.tolerances.total_cmp(&a.tolerances))
+    };
+    all.sort_by(order);
     all
+}
+
+impl MovedValue {
+    fn is_new_failure(&self) -> bool {
+        matches!(&self.now, Some((Some(severity), _)) if severity.is_error())
+    }
 }
 
 fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Option<MovedValue> {
@@ -84,7 +93,10 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Opti
     Some(MovedValue {
         tolerances: judged.change.in_tolerances()?,
         is_beyond: judged.change.has_moved(),
-        is_measured: true,
+        now: Some((
+            judged.severity,
+            metric.gate.as_ref().map(|gate| limit(gate.limit, &metric.unit)).unwrap_or_default(),
+        )),
         statement,
         commit: baseline.commit(case),
         key: MetricKey::of(case, metric),
@@ -101,22 +113,26 @@ pub(super) fn table(judgement: &Judgement<'_>) -> Value {
     let beyond = all.iter().filter(|moved| moved.is_beyond).count();
     let shown = all.len().min(ROWS.max(beyond));
     let rows: Vec<Value> = all[..shown].iter().map(row).collect();
-    json!({ "against": against, "rows": rows, "omitted": all.len() - shown })
+    json!({ "against": against, "rows": rows, "beyond": beyond, "omitted": all.len() - shown })
 }
 
 fn row(moved: &MovedValue) -> Value {
     let key = &moved.key;
-    let unchanged = VerdictMark { word: "within", ..VerdictMark::PASS };
+    let (verdict, limit) = match &moved.now {
+        Some((severity, limit)) => (VerdictMark::of(*severity), limit.as_str()),
+        None => (VerdictMark::NOT_JUDGED, ""),
+    };
     json!({
-        "mark": if moved.is_beyond { VerdictMark::MOVED } else { unchanged },
+        "mark": verdict,
         "case": key.case,
         "metric": key.metric,
         "variant": key.variant.to_string(),
         // the table of verdicts for what is gone
-        "anchor": if moved.is_measured { anchor(&key.case, &key.metric, &key.variant) } else { "verdicts".to_owned() },
+        "anchor": if moved.now.is_some() { anchor(&key.case, &key.metric, &key.variant) } else { "verdicts".to_owned() },
         "tolerances": if moved.tolerances.is_finite() { two_digits(moved.tolerances) } else { "–".to_owned() },
         "value": moved.statement.0,
         "baseline": moved.statement.1,
+        "limit": limit,
         "commit": moved.commit,
     })
 }

@@ -34,8 +34,23 @@ fn a_change_of_two_tolerances_tops_the_table() {
     assert!(all[0].is_beyond && (all[0].tolerances - 2.0).abs() < 1e-6, "{:?}", all[0]);
     let shown = table(&judgement);
     assert_eq!(shown["rows"][0]["metric"], "velocity_l2");
-    assert_eq!(shown["rows"][0]["mark"], json!(VerdictMark::MOVED));
-    assert_eq!((&shown["omitted"], &shown["against"]), (&json!(0), &json!("the baseline")));
+    assert_eq!(
+        (&shown["rows"][0]["mark"], &shown["rows"][0]["limit"]),
+        (&json!(VerdictMark::PASS), &json!("≤ 100\u{202f}%"))
+    );
+    assert_eq!(
+        (&shown["beyond"], &shown["omitted"], &shown["against"]),
+        (&json!(1), &json!(0), &json!("the baseline"))
+    );
+}
+
+#[test]
+fn a_gate_that_breaks_comes_before_what_moved_farther() {
+    let before = [metric("velocity_l2", 99.0), metric("gci", 5.0)];
+    let report = report(vec![metric("velocity_l2", 101.0), metric("gci", 50.0)], Baseline::of("film", &before));
+    let rows = &table(&judge(&report))["rows"];
+    assert_eq!((&rows[0]["metric"], &rows[0]["mark"]), (&json!("velocity_l2"), &json!(VerdictMark::FAIL)));
+    assert!(rows[1]["metric"] == "gci", "{rows}");
 }
 
 #[test]

@@ -2,44 +2,30 @@
 
 use super::DrawnFigure;
 use super::case_page::{case_statement, pictures};
-use super::judgement::{JudgedCase, JudgedMetric, Judgement, Rank};
-use super::rows::{margin_share, row, whole};
+use super::judgement::{JudgedCase, Judgement, Rank};
+use super::rows::row;
 use super::view::VerdictMark;
-use crate::metric::MetricKind;
 use crate::output::csv_text;
 use serde_json::{Value, json};
 
 /// Folder of the small pictures.
 pub(super) const FOLDER: &str = "overview";
 
-/// The list of cases, the least margin first.
+/// The list of cases, the worst verdict first.
 pub(super) fn case_lines(judgement: &Judgement<'_>, drawn: &[Vec<DrawnFigure>]) -> Vec<Value> {
     let line = |case: &JudgedCase<'_>| case_line(case, pictures(judgement.report, drawn, case.case).first());
-    let mut lines: Vec<(f64, Value)> = judgement.cases.iter().map(line).collect();
-    lines.sort_by(|one, other| one.0.total_cmp(&other.0));
-    lines.into_iter().map(|(_, line)| line).collect()
+    judgement.cases.iter().map(line).collect()
 }
 
-/// A case's least margin, infinite without gates, and its line.
-fn case_line(judged: &JudgedCase<'_>, picture: Option<&DrawnFigure>) -> (f64, Value) {
+fn case_line(judged: &JudgedCase<'_>, picture: Option<&DrawnFigure>) -> Value {
     let case = judged.case;
-    // what is exact passes by nothing
-    let counts =
-        |judged: &&JudgedMetric<'_>| judged.metric.kind != MetricKind::Bookkeeping || judged.rank() < Rank::Moved;
-    let gates = judged.metrics.iter().filter(counts);
-    let least = gates.filter_map(|judged| margin_share(judged.metric)).min_by(f64::total_cmp);
-    let line = json!({
-        "mark": VerdictMark::of_rank(judged.rank()),
+    json!({
+        "mark": VerdictMark::of_case(judged),
         "picture": picture.filter(|drawn| drawn.failure.is_none()),
         "name": case.name,
         "summary": case.summary,
         "statement": case_statement(judged),
-        "least_margin": match least {
-            Some(share) if share.is_finite() => format!("{} %", whole(100.0 * share)),
-            _ => "–".to_owned(),
-        },
-    });
-    (least.unwrap_or(f64::INFINITY), line)
+    })
 }
 
 /// Every metric that is judged or has moved; what is only observed stands on its case's page.

@@ -2,7 +2,7 @@
 
 use super::failures;
 use super::flows;
-use super::judgement::{Judgement, KINDS, Severity, plural};
+use super::judgement::{JudgedMetric, Judgement, KINDS, Severity, plural};
 use super::origin::provenance;
 use super::overview;
 use super::papers::Status;
@@ -65,6 +65,8 @@ pub(super) fn gates(judgement: &Judgement<'_>) -> Result<String, minijinja::Erro
 fn banner(judgement: &Judgement<'_>) -> Value {
     let tally = judgement.tally();
     let (new, moved) = (tally.of(Severity::NewFailure), judgement.moved());
+    let is_at_odds = |judged: &JudgedMetric<'_>| judged.listed.is_error();
+    let at_odds = judgement.metrics().filter(|(_, judged)| is_at_odds(judged)).count();
     let mark = match (judgement.exit() == Exit::Held, moved, tally.all()) {
         (false, ..) => VerdictMark::FAIL,
         (_, 1.., _) => VerdictMark::MOVED,
@@ -78,7 +80,8 @@ fn banner(judgement: &Judgement<'_>) -> Value {
     };
     let others = [
         (judgement.diverged(), "run", "diverged"),
-        (judgement.contradictions.len(), "result", "in conflict with the list of expected failures"),
+        (tally.of(Severity::UnexpectedPass), "expected failure", "now within the limit: delete from the list"),
+        (judgement.contradictions.len() - at_odds, "expected failure", "that no study measures"),
     ];
     let others = others.iter().filter(|(number, ..)| *number > 0);
     let others = others.map(|(number, what, how)| format!("; {} {how}", plural(*number, what))).collect::<String>();
@@ -87,7 +90,7 @@ fn banner(judgement: &Judgement<'_>) -> Value {
         _ => format!("{}; {compared}{others}", plural(new, Severity::NewFailure.word())),
     };
     let items = failures::of(&judgement.cases);
-    json!({ "mark": mark, "headline": headline, "detail": tally.in_words(), "items": items })
+    json!({ "mark": mark, "headline": headline, "detail": tally.in_words(), "weakest": failures::weakest(&items), "items": items })
 }
 
 /// Gates of each kind, those against measurements first.

@@ -60,7 +60,7 @@ fn the_first_page_leads_with_what_is_furthest_off_and_the_farthest_moves() {
     let failing = super::failures::of(&judgement.cases);
     let names = |places: &[usize]| places.iter().map(|&place| failing[place]["metric"].clone()).collect::<Vec<_>>();
     assert_eq!(names(&[0, 1, 2]), ["far", "broken", "near"], "twelve times the limit before 1.3 and 1.1 times");
-    assert!(place(&page, "Weakest results") < place(&page, "id=\"moved\""));
+    assert!(place(&page, "id=\"moved\"") < place(&page, "Failed gates"));
     let moved: Vec<&str> = page.split("id=\"moved\"").nth(1).expect("a list").split("<b>").skip(1).take(2).collect();
     assert!(moved[0].starts_with("broken") && moved[1].starts_with("thin"), "{moved:?}");
     let thin = overview::gates(&judgement).into_iter().find(|gate| gate["row"]["metric"] == "thin").expect("a gate");

@@ -16,7 +16,7 @@ fn mark(status: Status) -> VerdictMark {
     match status {
         Status::Reproduced => of(VerdictMark::PASS, "✓"),
         Status::NotShown => of(VerdictMark::EXPECTED, "○"),
-        Status::NotReproduced => of(VerdictMark::EXPECTED, "✗"),
+        Status::NotReproduced => of(VerdictMark::EXPECTED, "△"),
         Status::Contradicted => of(VerdictMark::FAIL, "✗"),
         Status::NotCovered => of(VerdictMark::OBSERVED, "–"),
     }

@@ -1,6 +1,6 @@
 //! Data of the templates: nothing but text, made by `page` and `rows`.
 
-use super::judgement::{Rank, Severity};
+use super::judgement::{JudgedCase, Rank, Severity};
 use crate::metric::Variant;
 use crate::store::provenance::workspace;
 use serde::Serialize;
@@ -17,18 +17,20 @@ pub(super) struct VerdictMark {
 impl VerdictMark {
     pub(super) const FAIL: Self = Self { class: "fail", symbol: "✗", word: Severity::NewFailure.word() };
     pub(super) const NOT_JUDGED: Self = Self { class: "fail", symbol: "–", word: Severity::NotJudged.word() };
-    pub(super) const EXPECTED: Self = Self { class: "expected", symbol: "✗", word: Severity::ExpectedFailure.word() };
+    pub(super) const UNEXPECTED: Self = Self { class: "fail", symbol: "!", word: Severity::UnexpectedPass.word() };
+    pub(super) const EXPECTED: Self = Self { class: "expected", symbol: "△", word: Severity::ExpectedFailure.word() };
     pub(super) const INCONCLUSIVE: Self =
         Self { class: "inconclusive", symbol: "○", word: Severity::Inconclusive.word() };
     pub(super) const PASS: Self = Self { class: "pass", symbol: "✓", word: Severity::Pass.word() };
     pub(super) const MOVED: Self = Self { class: "moved", symbol: "≠", word: "moved" };
-    pub(super) const OBSERVED: Self = Self { class: "observed", symbol: "○", word: "observed" };
+    pub(super) const OBSERVED: Self = Self { class: "observed", symbol: "·", word: "observed" };
 
     /// The mark of a gate; of a metric without one it is observed.
     pub(super) fn of(severity: Option<Severity>) -> Self {
         match severity {
             Some(Severity::NewFailure) => Self::FAIL,
             Some(Severity::NotJudged) => Self::NOT_JUDGED,
+            Some(Severity::UnexpectedPass) => Self::UNEXPECTED,
             Some(Severity::ExpectedFailure) => Self::EXPECTED,
             Some(Severity::Inconclusive) => Self::INCONCLUSIVE,
             Some(Severity::Pass) => Self::PASS,
@@ -36,13 +38,12 @@ impl VerdictMark {
         }
     }
 
-    /// The mark of a case by its rank.
-    pub(super) fn of_rank(rank: Rank) -> Self {
-        match rank {
+    /// The mark of a case: its worst gate, or that a value moved.
+    pub(super) fn of_case(judged: &JudgedCase<'_>) -> Self {
+        match judged.rank() {
             Rank::Failing(severity) => Self::of(Some(severity)),
             Rank::Moved => Self::MOVED,
-            Rank::Within => Self::PASS,
-            Rank::Observed => Self::OBSERVED,
+            Rank::Within | Rank::Observed => Self::of(judged.tally().0.into_iter().min()),
         }
     }
 }

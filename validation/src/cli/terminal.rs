@@ -30,7 +30,8 @@ const ERRORS: [&str; 4] = ["NEW FAILURE", "NOT JUDGED", "EXPECTED FAILURE", "DIV
 fn coloured(text: &str) -> String {
     let colour = |line: &str| match line {
         _ if line.contains(" gates: ") || line.starts_with("1 gate: ") => {
-            let is_sound = line.contains(" 0 new failures") && !line.contains(Severity::NotJudged.word());
+            let worse = [Severity::NotJudged, Severity::UnexpectedPass];
+            let is_sound = line.contains(" 0 new failures") && !worse.iter().any(|own| line.contains(own.word()));
             Some(if is_sound { Style::new().green() } else { Style::new().red() })
         }
         _ if ERRORS.iter().any(|word| line.starts_with(word)) => Some(Style::new().red()),

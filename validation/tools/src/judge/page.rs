@@ -110,7 +110,7 @@ pub(crate) fn mark(verdict: Option<Verdict>) -> [&'static str; 3] {
     match verdict {
         Some(Verdict::Pass) => ["pass", "✓", Severity::Pass.word()],
         Some(Verdict::Fail) => ["fail", "✗", Severity::NewFailure.word()],
-        Some(Verdict::Observed) => ["observed", "○", "observed"],
+        Some(Verdict::Observed) => ["observed", "·", "observed"],
         None => ["observed", "–", Severity::NotJudged.word()],
     }
 }
