@@ -46,14 +46,25 @@ pub(super) fn parts<const D: usize>(
         if is_inner(&cell) || is_interrupted() {
             continue;
         }
-        let near: Vec<usize> = around(cell, 2).filter_map(|near| particles.get(&near).copied()).collect();
+        // a place in the cell of a particle is nearest to it
+        let own = particles.get(&cell).copied();
+        let near: Vec<usize> = match own {
+            Some(_) => Vec::new(),
+            None => around(cell, 2).filter_map(|near| particles.get(&near).copied()).collect(),
+        };
+        if own.is_none() && near.is_empty() {
+            continue;
+        }
         for k in 0..samples {
             let within = |axis: usize| ((k / edge.pow(axis as u32) % edge) as f64 + 0.5) / edge as f64;
             let place = lattice.place(&Vector::from_fn(|axis, _| cell[axis] as f64 + within(axis)));
+            if !is_inside(&place) {
+                continue;
+            }
             let off = |k: usize| place - sites[k].place;
-            let nearest = near.iter().copied();
-            let nearest = nearest.min_by(|&a, &b| off(a).norm_squared().total_cmp(&off(b).norm_squared()));
-            if let Some(k) = nearest.filter(|_| is_inside(&place)) {
+            let nearest =
+                || near.iter().copied().min_by(|&a, &b| off(a).norm_squared().total_cmp(&off(b).norm_squared()));
+            if let Some(k) = own.or_else(nearest) {
                 sums[k].0 += 1.0 / samples as f64;
                 sums[k].1 += off(k) / samples as f64;
             }

@@ -6,6 +6,7 @@ use super::measured::MeasuredSeries;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, vector};
 use super::sides::SceneSides;
+use super::surfaces::SideSearch;
 use super::{BodyPreparation, Measurand, shapes};
 use crate::figure::{Figure, Panel};
 use crate::metric::Variant;
@@ -37,6 +38,8 @@ pub trait Dimension<const D: usize>: Debug + Clone + Copy + PartialEq + Send + S
     /// A gauge.
     type Gauge: SceneGauge<D>;
 
+    /// Search for the side of facets, compiled with the solver.
+    const SIDE: SideSearch<D>;
     /// Name of the case.
     const NAME: &'static str;
     /// One line for `bagnold list`.

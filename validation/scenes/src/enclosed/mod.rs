@@ -51,6 +51,7 @@ pub use observation::{FedMass, OutflowRecord, SceneObservation};
 pub use scene_case::SceneCase;
 pub use settling::BodyPreparation;
 pub use sides::DomainSide;
+pub use surfaces::SideSearch;
 
 #[cfg(test)]
 use crate::case::{RunList, Tier};

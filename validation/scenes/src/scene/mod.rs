@@ -11,10 +11,11 @@ pub use gauge::PlaneGauge;
 pub use inlet::PlaneInlet;
 pub use wall::{FlowSide, PlaneSides, WallLine};
 
-use super::enclosed::{Dimension, SceneCase, SceneFlow};
+use super::enclosed::{Dimension, SceneCase, SceneFlow, SideSearch};
 use crate::figure::{Figure, Panel};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 /// Two coordinates or components along x and y.
 pub type PlaneVector = (f64, f64);
@@ -34,6 +35,7 @@ impl Dimension<2> for Plane {
     type Inlet = PlaneInlet;
     type Gauge = PlaneGauge;
 
+    const SIDE: SideSearch<2> = <Simulation<2> as Compiled<2>>::compiled_side;
     const NAME: &'static str = "scene";
     const SUMMARY: &'static str = "user-defined 2-D scene: bodies of material, walls of segments, inlets, open sides, gauges; judged by its balances";
     const DESCRIPTION: &'static str = "\

@@ -12,10 +12,11 @@ pub use gauge::SpaceGauge;
 pub use inlet::SpaceInlet;
 pub use wall::{SpaceSides, SpaceWall};
 
-use super::enclosed::{Dimension, SceneCase, SceneFlow};
+use super::enclosed::{Dimension, SceneCase, SceneFlow, SideSearch};
 use crate::figure::{Figure, Panel};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 /// Three coordinates or components along x, y and z.
 pub type SpaceVector = (f64, f64, f64);
@@ -35,6 +36,7 @@ impl Dimension<3> for Space {
     type Inlet = SpaceInlet;
     type Gauge = SpaceGauge;
 
+    const SIDE: SideSearch<3> = <Simulation<3> as Compiled<3>>::compiled_side;
     const NAME: &'static str = "scene-space";
     const SUMMARY: &'static str = "user-defined 3-D scene: bodies of material, walls from STL files or of quadrilaterals and boxes, open sides, gauges; judged by its balances";
     const DESCRIPTION: &'static str = "\
