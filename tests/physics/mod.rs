@@ -13,6 +13,7 @@ mod run_out;
 mod scene_preparation;
 mod scene_texts;
 mod scenes;
+mod submerged_layer;
 pub(crate) mod verdict;
 
 use bagnold_harness::case::Tier;

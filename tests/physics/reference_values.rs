@@ -1,10 +1,10 @@
 //! Reference values that files hold as numbers, by the route that they came from: what material points extrapolate to, and the travelling front
 //! that `fed-slope` is compared with.
 
+use super::submerged_layer::{SubmergedColumn, SubmergedLayer};
 use bagnold_harness::evidence::shipped_table;
 use bagnold_reference::collapse::{CodeQuantity, OtherCodes, PLANAR_CODES, ROUND_CODES, RoughIncline, SLOPE_CODES};
 use bagnold_reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
-use bagnold_reference::one_dimension::submerged::{SubmergedColumn, SubmergedLayer};
 use bagnold_reference::one_dimension::{BagnoldProfile, NonlocalLayer};
 use bagnold_solver::material::rheology::field::FieldBoundary;
 use std::path::Path;

@@ -23,14 +23,6 @@ pub enum LayerError {
         /// Largest residual `[m/s]`.
         residual: f64,
     },
-    /// The pore pressure of a submerged layer did not converge.
-    #[error(
-        "compute the submerged layer: no pore pressure balances the dilation at t = {time} s; use a smaller `largest_fraction_change`"
-    )]
-    NoPorePressure {
-        /// Time `[s]`.
-        time: f64,
-    },
     /// Two starts lead to two steady states.
     #[error(
         "compute the steady layer: it has two states, q* = {slow:.3e} from rest and {fast:.3e} from a fast start, which \

@@ -2,8 +2,7 @@
 //!
 //! A layer of dry grains on an incline has an exact steady profile ([`BagnoldProfile`]) and a motion towards it
 //! ([`LayerTransient`]), and so has one under the nonlocal law ([`NonlocalLayer`]); chutes, heaps and plane
-//! shear under gravity of that law have a steady flow whose stresses are known ([`NonlocalShear`]); a stream over a bed of grains has a steady state of both phases ([`bed_load`]);
-//! a layer of grains under a viscous liquid sets in and flows ([`submerged`]). Finite volumes,
+//! shear under gravity of that law have a steady flow whose stresses are known ([`NonlocalShear`]); a stream over a bed of grains has a steady state of both phases ([`bed_load`]). Finite volumes,
 //! exact stresses where nothing flows, no particles, no files and no cases. Of the solver only laws are used (drag, viscosity of
 //! suspensions, roughness of grains) and the parameters of μ(I), so that agreement verifies the discretisation.
 
@@ -17,7 +16,6 @@ mod nonlocal_shear;
 #[cfg(test)]
 mod nonlocal_transient;
 mod steadiness;
-pub mod submerged;
 mod table;
 mod tridiagonal;
 

@@ -10,8 +10,10 @@
 //!
 //! The constants are published; no number is fitted to avalanches. The study `submerged-slope` has its references from here.
 
-use super::LayerError;
-use super::tridiagonal::solve;
+#[path = "../../validation/reference/src/one_dimension/tridiagonal.rs"]
+mod tridiagonal;
+
+use tridiagonal::solve;
 
 /// Coefficient of the permeability by Kozeny and Carman `[-]`.
 const PERMEABILITY: f64 = 1.0 / 180.0;
@@ -29,39 +31,39 @@ const LARGEST_ITERATIONS: usize = 60;
 
 /// A submerged layer and how it is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SubmergedLayer {
+pub(super) struct SubmergedLayer {
     /// Slope angle θ `[°]`.
-    pub slope_angle: f64,
+    slope_angle: f64,
     /// Gravity `[m/s²]`.
-    pub gravity: f64,
+    gravity: f64,
     /// Depth h at the start `[m]`.
-    pub depth: f64,
+    depth: f64,
     /// Diameter d of the grains `[m]`.
-    pub grain_diameter: f64,
+    grain_diameter: f64,
     /// Density ρ_s of the grains `[kg/m³]`.
-    pub grain_density: f64,
+    grain_density: f64,
     /// Density ρ_f of the liquid `[kg/m³]`.
-    pub liquid_density: f64,
+    liquid_density: f64,
     /// Viscosity η of the liquid `[Pa·s]`.
-    pub viscosity: f64,
+    viscosity: f64,
     /// Friction coefficient μ_c at rest `[-]`.
-    pub critical_friction: f64,
+    critical_friction: f64,
     /// Rise K1 of the friction coefficient with I `[-]`.
-    pub friction_slope: f64,
+    friction_slope: f64,
     /// Equilibrium solid fraction φ_c at rest `[-]`.
-    pub critical_fraction: f64,
+    critical_fraction: f64,
     /// Fall K2 of the equilibrium solid fraction with I `[-]`.
-    pub fraction_slope: f64,
+    fraction_slope: f64,
     /// Dilatancy K3: tanψ per difference of solid fraction from equilibrium `[-]`.
-    pub dilatancy: f64,
+    dilatancy: f64,
     /// Compressibility S of the skeleton, above 0 `[1/Pa]`.
-    pub compressibility: f64,
+    compressibility: f64,
     /// Number of cells over the depth.
-    pub cells: usize,
+    cells: usize,
     /// Largest change of the solid fraction in a step `[-]`.
-    pub largest_fraction_change: f64,
+    largest_fraction_change: f64,
     /// Longest step `[s]`.
-    pub longest_step: f64,
+    longest_step: f64,
 }
 
 /// Shear and dilation of grains.
@@ -77,7 +79,7 @@ struct GrainFlow {
 
 impl SubmergedLayer {
     /// Glass beads on 25° as in the experiment of Pailha, Nicolas & Pouliquen (2008), in a liquid thirty times as thin.
-    pub const GLASS_BEADS: Self = Self {
+    pub(super) const GLASS_BEADS: Self = Self {
         slope_angle: 25.0,
         gravity: 9.81,
         depth: 4.9e-3,
@@ -104,7 +106,7 @@ impl SubmergedLayer {
     }
 
     /// Pressure P at the floor under the buoyant weight (ρ_s − ρ_f) g cosθ, from the solid fraction at the start `[Pa]`.
-    pub fn floor_overburden(&self, fraction: f64) -> f64 {
+    pub(super) fn floor_overburden(&self, fraction: f64) -> f64 {
         let along_z = self.gravity * libm::cos(self.slope_angle.to_radians());
         (self.grain_density - self.liquid_density) * along_z * fraction * self.depth
     }
@@ -134,24 +136,24 @@ impl SubmergedLayer {
 
 /// A column in motion; arrays of cells from the floor upwards.
 #[derive(Debug, Clone)]
-pub struct SubmergedColumn {
+pub(super) struct SubmergedColumn {
     layer: SubmergedLayer,
     /// Volume of the grains of a cell over its base `[m]`.
     grains: f64,
     /// Overburden P `[Pa]`.
     overburden: Vec<f64>,
     /// Solid fraction φ `[-]`.
-    pub fraction: Vec<f64>,
+    fraction: Vec<f64>,
     /// Excess pore pressure p_f `[Pa]`.
-    pub pore_pressure: Vec<f64>,
+    pub(super) pore_pressure: Vec<f64>,
     flow: Vec<GrainFlow>,
     /// Time since the tilt `[s]`.
-    pub time: f64,
+    pub(super) time: f64,
 }
 
 impl SubmergedColumn {
     /// A column of a uniform solid fraction and a uniform pore pressure `[Pa]`, tilted at once.
-    pub fn new(layer: &SubmergedLayer, solid_fraction: f64, pore_pressure: f64) -> Self {
+    pub(super) fn new(layer: &SubmergedLayer, solid_fraction: f64, pore_pressure: f64) -> Self {
         let cells = layer.cells;
         let share = |k: usize| (cells as f64 - k as f64 - 0.5) / cells as f64;
         let mut column = Self {
@@ -168,15 +170,12 @@ impl SubmergedColumn {
     }
 
     /// Velocity of the surface `[m/s]`.
-    pub fn surface_velocity(&self) -> f64 {
+    pub(super) fn surface_velocity(&self) -> f64 {
         self.flow.iter().zip(&self.fraction).map(|(flow, fraction)| flow.shear_rate * self.grains / fraction).sum()
     }
 
-    /// Motion until a time `[s]`.
-    ///
-    /// # Errors
-    /// A step whose pore pressure does not converge.
-    pub fn advance_to(&mut self, time: f64) -> Result<(), LayerError> {
+    /// Motion until a time `[s]`; none where the pore pressure of a step does not converge.
+    pub(super) fn advance_to(&mut self, time: f64) -> Option<()> {
         while self.time < time {
             let changes = self.flow.iter().zip(&self.fraction).map(|(flow, own)| (own * flow.dilation_rate).abs());
             let step = self.layer.largest_fraction_change / changes.fold(0.0, f64::max);
@@ -185,11 +184,11 @@ impl SubmergedColumn {
             self.step(end - self.time)?;
             self.time = end;
         }
-        Ok(())
+        Some(())
     }
 
     /// One step: φ by the midpoint rule, the pore pressure in balance with it.
-    fn step(&mut self, step: f64) -> Result<(), LayerError> {
+    fn step(&mut self, step: f64) -> Option<()> {
         let dilated = |flow: &[GrainFlow], step: f64| -> Vec<f64> {
             let pairs = self.fraction.iter().zip(flow);
             pairs.map(|(fraction, flow)| fraction * libm::exp(-step * flow.dilation_rate)).collect()
@@ -201,7 +200,7 @@ impl SubmergedColumn {
         let carried: Vec<f64> = pairs.map(|(start, first)| start + (1.0 - STAGE) / STAGE * (first - start)).collect();
         (self.pore_pressure, self.flow) = self.balanced(&fraction, &carried, STAGE * step)?;
         self.fraction = fraction;
-        Ok(())
+        Some(())
     }
 
     /// Flow of the grains at a pore pressure.
@@ -216,7 +215,7 @@ impl SubmergedColumn {
 
     /// Pore pressure in balance with the dilation that it causes and with water stored over a time `[s]` since a former
     /// pressure, which is the first guess as well; with the flow of the grains.
-    fn balanced(&self, fraction: &[f64], before: &[f64], time: f64) -> Result<(Vec<f64>, Vec<GrainFlow>), LayerError> {
+    fn balanced(&self, fraction: &[f64], before: &[f64], time: f64) -> Option<(Vec<f64>, Vec<GrainFlow>)> {
         let (cells, storage) = (fraction.len(), self.layer.compressibility / time);
         let height: Vec<f64> = fraction.iter().map(|fraction| self.grains / fraction).collect();
         let resistance = |k: usize| 0.5 * height[k] * self.layer.viscosity / self.layer.permeability(fraction[k]);
@@ -240,114 +239,108 @@ impl SubmergedColumn {
             pressure.iter_mut().zip(&change).for_each(|(pressure, change)| *pressure += part * change);
             if change.iter().all(|change| change.abs() < CONVERGED * self.overburden[0]) {
                 let flow = self.grain_flow(fraction, &pressure);
-                return Ok((pressure, flow));
+                return Some((pressure, flow));
             }
         }
-        Err(LayerError::NoPorePressure { time: self.time })
+        None
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+const BEADS: SubmergedLayer = SubmergedLayer::GLASS_BEADS;
 
-    const BEADS: SubmergedLayer = SubmergedLayer::GLASS_BEADS;
+fn after(layer: &SubmergedLayer, solid_fraction: f64, time: f64) -> SubmergedColumn {
+    let mut column = SubmergedColumn::new(layer, solid_fraction, 0.0);
+    column.advance_to(time).expect("converges");
+    column
+}
 
-    fn after(layer: &SubmergedLayer, solid_fraction: f64, time: f64) -> SubmergedColumn {
-        let mut column = SubmergedColumn::new(layer, solid_fraction, 0.0);
+/// tanψ = 0 and τ/p′ = tanθ in every cell: one viscous number, one fraction and a linear shear rate.
+#[test]
+fn a_layer_flows_steadily_at_the_equilibrium_fraction() {
+    let viscous_number = (libm::tan(25_f64.to_radians()) - BEADS.critical_friction) / BEADS.friction_slope;
+    let fraction = BEADS.critical_fraction - BEADS.fraction_slope * viscous_number;
+    let depth = BEADS.depth * 0.578 / fraction;
+    let velocity = 0.5 * viscous_number * BEADS.floor_overburden(0.578) * depth / BEADS.viscosity;
+    let column = after(&BEADS, 0.578, 130.0);
+    assert!((column.surface_velocity() / velocity - 1.0).abs() < 1e-4);
+    assert!(column.fraction.iter().all(|own| (own - fraction).abs() < 1e-4), "{:?}", column.fraction);
+    let mean = column.fraction.len() as f64 / column.fraction.iter().map(|own| 1.0 / own).sum::<f64>();
+    assert!((mean - fraction).abs() < 1e-5);
+    assert!(column.pore_pressure[0].abs() < 1e-2);
+}
+
+#[test]
+fn loose_grains_push_water_out_and_dense_grains_draw_it_in() {
+    assert!(after(&BEADS, 0.562, 0.03).pore_pressure[0] > 1.0);
+    assert!(after(&BEADS, 0.584, 0.03).pore_pressure[0] < -1.0);
+}
+
+/// Terzaghi: a uniform pressure in a layer at rest, with a drained surface and an undrained floor, at T = c_v t/h² = 0.2.
+#[test]
+fn pore_pressure_of_a_layer_at_rest_drains_as_terzaghi_has_it() {
+    let error = |cells| {
+        let layer = SubmergedLayer { slope_angle: 0.0, cells, ..BEADS };
+        let diffusivity = layer.permeability(0.578) / (layer.viscosity * layer.compressibility);
+        let time = 0.2 * layer.depth * layer.depth / diffusivity;
+        let start = 0.1 * layer.floor_overburden(0.578) / (2.0 * cells as f64);
+        let mut column = SubmergedColumn::new(&SubmergedLayer { longest_step: time / 200.0, ..layer }, 0.578, start);
         column.advance_to(time).expect("converges");
-        column
-    }
-
-    /// tanψ = 0 and τ/p′ = tanθ in every cell: one viscous number, one fraction and a linear shear rate.
-    #[test]
-    fn a_layer_flows_steadily_at_the_equilibrium_fraction() {
-        let viscous_number = (libm::tan(25_f64.to_radians()) - BEADS.critical_friction) / BEADS.friction_slope;
-        let fraction = BEADS.critical_fraction - BEADS.fraction_slope * viscous_number;
-        let depth = BEADS.depth * 0.578 / fraction;
-        let velocity = 0.5 * viscous_number * BEADS.floor_overburden(0.578) * depth / BEADS.viscosity;
-        let column = after(&BEADS, 0.578, 130.0);
-        assert!((column.surface_velocity() / velocity - 1.0).abs() < 1e-4);
-        assert!(column.fraction.iter().all(|own| (own - fraction).abs() < 1e-4), "{:?}", column.fraction);
-        let mean = column.fraction.len() as f64 / column.fraction.iter().map(|own| 1.0 / own).sum::<f64>();
-        assert!((mean - fraction).abs() < 1e-5);
-        assert!(column.pore_pressure[0].abs() < 1e-2);
-    }
-
-    #[test]
-    fn loose_grains_push_water_out_and_dense_grains_draw_it_in() {
-        assert!(after(&BEADS, 0.562, 0.03).pore_pressure[0] > 1.0);
-        assert!(after(&BEADS, 0.584, 0.03).pore_pressure[0] < -1.0);
-    }
-
-    /// Terzaghi: a uniform pressure in a layer at rest, with a drained surface and an undrained floor, at T = c_v t/h² = 0.2.
-    #[test]
-    fn pore_pressure_of_a_layer_at_rest_drains_as_terzaghi_has_it() {
-        let error = |cells| {
-            let layer = SubmergedLayer { slope_angle: 0.0, cells, ..BEADS };
-            let diffusivity = layer.permeability(0.578) / (layer.viscosity * layer.compressibility);
-            let time = 0.2 * layer.depth * layer.depth / diffusivity;
-            let start = 0.1 * layer.floor_overburden(0.578) / (2.0 * cells as f64);
-            let mut column =
-                SubmergedColumn::new(&SubmergedLayer { longest_step: time / 200.0, ..layer }, 0.578, start);
-            column.advance_to(time).expect("converges");
-            let term = |odd: f64| {
-                let wave = 0.5 * odd * std::f64::consts::PI;
-                2.0 / wave * libm::sin(wave) * libm::cos(wave * 0.5 / cells as f64) * libm::exp(-0.2 * wave * wave)
-            };
-            let exact = [1.0, 3.0, 5.0, 7.0].map(term).iter().sum::<f64>();
-            column.pore_pressure[0] / start / exact - 1.0
+        let term = |odd: f64| {
+            let wave = 0.5 * odd * std::f64::consts::PI;
+            2.0 / wave * libm::sin(wave) * libm::cos(wave * 0.5 / cells as f64) * libm::exp(-0.2 * wave * wave)
         };
-        let [coarse, fine] = [20, 40].map(|cells| error(cells).abs());
-        assert!(fine < 1e-3, "{fine}");
-        assert!((libm::log2(coarse / fine) - 2.0).abs() < 0.2, "{coarse} {fine}");
-    }
+        let exact = [1.0, 3.0, 5.0, 7.0].map(term).iter().sum::<f64>();
+        column.pore_pressure[0] / start / exact - 1.0
+    };
+    let [coarse, fine] = [20, 40].map(|cells| error(cells).abs());
+    assert!(fine < 1e-3, "{fine}");
+    assert!((libm::log2(coarse / fine) - 2.0).abs() < 0.2, "{coarse} {fine}");
+}
 
-    #[test]
-    fn steps_are_of_second_order_in_their_length() {
-        let velocity = |longest_step| {
-            let layer = SubmergedLayer { largest_fraction_change: 1.0, longest_step, ..BEADS };
-            after(&layer, 0.578, 64.0 / 30.0).surface_velocity()
-        };
-        // the jump of the pore pressure at the start takes many short steps
-        let [coarse, middle, fine] = [4.0, 2.0, 1.0].map(|step| velocity(step / 3840.0));
-        let order = libm::log2((coarse - middle) / (middle - fine));
-        assert!((order - 2.0).abs() < 0.2, "{order}");
-    }
+#[test]
+fn steps_are_of_second_order_in_their_length() {
+    let velocity = |longest_step| {
+        let layer = SubmergedLayer { largest_fraction_change: 1.0, longest_step, ..BEADS };
+        after(&layer, 0.578, 64.0 / 30.0).surface_velocity()
+    };
+    // the jump of the pore pressure at the start takes many short steps
+    let [coarse, middle, fine] = [4.0, 2.0, 1.0].map(|step| velocity(step / 3840.0));
+    let order = libm::log2((coarse - middle) / (middle - fine));
+    assert!((order - 2.0).abs() < 0.2, "{order}");
+}
 
-    #[test]
-    fn a_layer_without_a_solution_is_an_error() {
-        let mut weightless = SubmergedColumn::new(&SubmergedLayer { gravity: 0.0, ..BEADS }, 0.58, 0.0);
-        assert!(matches!(weightless.advance_to(1.0), Err(LayerError::NoPorePressure { .. })));
-    }
+#[test]
+fn a_layer_without_a_solution_has_none() {
+    let mut weightless = SubmergedColumn::new(&SubmergedLayer { gravity: 0.0, ..BEADS }, 0.58, 0.0);
+    assert!(weightless.advance_to(1.0).is_none());
+}
 
-    #[test]
-    fn the_flow_under_a_stress_has_this_stress_by_the_law() {
-        for (pressure, fraction) in [(20.0, 0.56), (24.0, 0.585), (18.0, 0.6)] {
-            let flow = BEADS.flow(11.0, pressure, fraction);
-            let viscous_number = BEADS.viscosity * flow.shear_rate / pressure;
-            let equilibrium = BEADS.critical_fraction - BEADS.fraction_slope * viscous_number;
-            let tangent = BEADS.dilatancy * (fraction - equilibrium);
-            let friction = BEADS.critical_friction + BEADS.friction_slope * viscous_number + tangent;
-            assert!(flow.shear_rate > 0.0);
-            assert!((friction * pressure - 11.0).abs() < 1e-12);
-            assert!((flow.dilation_rate / (flow.shear_rate * tangent) - 1.0).abs() < 1e-12);
-        }
+#[test]
+fn the_flow_under_a_stress_has_this_stress_by_the_law() {
+    for (pressure, fraction) in [(20.0, 0.56), (24.0, 0.585), (18.0, 0.6)] {
+        let flow = BEADS.flow(11.0, pressure, fraction);
+        let viscous_number = BEADS.viscosity * flow.shear_rate / pressure;
+        let equilibrium = BEADS.critical_fraction - BEADS.fraction_slope * viscous_number;
+        let tangent = BEADS.dilatancy * (fraction - equilibrium);
+        let friction = BEADS.critical_friction + BEADS.friction_slope * viscous_number + tangent;
+        assert!(flow.shear_rate > 0.0);
+        assert!((friction * pressure - 11.0).abs() < 1e-12);
+        assert!((flow.dilation_rate / (flow.shear_rate * tangent) - 1.0).abs() < 1e-12);
     }
+}
 
-    #[test]
-    fn the_slope_of_the_dilation_rate_is_its_finite_difference() {
-        let rate = |pressure: f64| BEADS.flow(11.0, pressure, 0.585);
-        let difference = (rate(22.0 + 1e-4).dilation_rate - rate(22.0 - 1e-4).dilation_rate) / 2e-4;
-        assert!((difference / rate(22.0).dilation_slope - 1.0).abs() < 1e-6);
-    }
+#[test]
+fn the_slope_of_the_dilation_rate_is_its_finite_difference() {
+    let rate = |pressure: f64| BEADS.flow(11.0, pressure, 0.585);
+    let difference = (rate(22.0 + 1e-4).dilation_rate - rate(22.0 - 1e-4).dilation_rate) / 2e-4;
+    assert!((difference / rate(22.0).dilation_slope - 1.0).abs() < 1e-6);
+}
 
-    #[test]
-    fn grains_rest_below_the_yield_stress_and_keep_the_equilibrium_fraction_above() {
-        assert_eq!(BEADS.flow(9.0, 22.0, 0.585), GrainFlow::default());
-        let viscous_number = (0.5 - BEADS.critical_friction) / BEADS.friction_slope;
-        let flow = BEADS.flow(11.0, 22.0, BEADS.critical_fraction - BEADS.fraction_slope * viscous_number);
-        assert!((BEADS.viscosity * flow.shear_rate / 22.0 / viscous_number - 1.0).abs() < 1e-12);
-        assert!((flow.dilation_rate / flow.shear_rate).abs() < 1e-12);
-    }
+#[test]
+fn grains_rest_below_the_yield_stress_and_keep_the_equilibrium_fraction_above() {
+    assert_eq!(BEADS.flow(9.0, 22.0, 0.585), GrainFlow::default());
+    let viscous_number = (0.5 - BEADS.critical_friction) / BEADS.friction_slope;
+    let flow = BEADS.flow(11.0, 22.0, BEADS.critical_fraction - BEADS.fraction_slope * viscous_number);
+    assert!((BEADS.viscosity * flow.shear_rate / 22.0 / viscous_number - 1.0).abs() < 1e-12);
+    assert!((flow.dilation_rate / flow.shear_rate).abs() < 1e-12);
 }
