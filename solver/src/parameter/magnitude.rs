@@ -121,7 +121,7 @@ fn units_in(description: &str) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Fault, first_fault, positive, schema_of, unbounded};
+    use super::super::{Fault, first_fault, positive, schema_of};
     use schemars::JsonSchema;
     use serde::Serialize;
 
@@ -138,11 +138,6 @@ mod tests {
         stops: Vec<(f64, f64)>,
         columns: usize,
         seed: u64,
-    }
-
-    #[derive(Serialize, JsonSchema)]
-    struct Nameless {
-        number: f64,
     }
 
     fn said(change: &str) -> String {
@@ -174,11 +169,5 @@ mod tests {
             said("columns = 1000000000000"),
             "`columns` is 1000000000000, but must be at most 1000000; give a smaller whole number"
         );
-    }
-
-    #[test]
-    fn a_number_without_rule_and_unit_is_found() {
-        assert_eq!(unbounded(schema_of::<Bed>()), [""; 0]);
-        assert_eq!(unbounded(schema_of::<Nameless>()), [".number"]);
     }
 }

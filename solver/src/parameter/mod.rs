@@ -38,5 +38,5 @@ pub use check::{Fault, first_fault, rule_in_words};
 pub use magnitude::LARGEST_LENGTH;
 pub use problem::{ParameterProblem, defect, shortened};
 pub use rules::{Rule, above, at_least, between, filled, inside, not_negative, positive, up_to};
-pub use schema::{range_problem, schema_of, unbounded};
+pub use schema::{range_problem, schema_of};
 pub use shape::{Shape, Variant, description};

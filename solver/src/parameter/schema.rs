@@ -33,40 +33,6 @@ pub fn range_problem<T: Serialize + JsonSchema + 'static>(value: &T) -> Option<P
     }
 }
 
-/// The dotted paths of numbers that no unit bounds and no rule bounds on both sides; a test wants none in any case.
-#[must_use]
-pub fn unbounded(schema: &Value) -> Vec<String> {
-    let mut found = Vec::new();
-    collect_unbounded(schema, "", &mut found);
-    found
-}
-
-fn collect_unbounded(schema: &Value, path: &str, found: &mut Vec<String>) {
-    let kinds = match schema.get("type") {
-        Some(Value::Array(kinds)) => kinds.iter().filter_map(Value::as_str).collect(),
-        Some(Value::String(kind)) => vec![kind.as_str()],
-        _ => Vec::new(),
-    };
-    let further = schema.get("allOf").and_then(Value::as_array);
-    let rules: Vec<&Value> = std::iter::once(schema).chain(further.into_iter().flatten()).collect();
-    let has = |keys: [&str; 2]| rules.iter().any(|rule| keys.iter().any(|key| rule.get(key).is_some()));
-    let both = has(["minimum", "exclusiveMinimum"]) && has(["maximum", "exclusiveMaximum"]);
-    if kinds.contains(&"number") && !both {
-        found.push(path.to_owned());
-    }
-    for (name, field) in schema.get("properties").and_then(Value::as_object).into_iter().flatten() {
-        collect_unbounded(field, &format!("{path}.{name}"), found);
-    }
-    if let Some(items) = schema.get("items") {
-        collect_unbounded(items, &format!("{path}[]"), found);
-    }
-    for key in ["anyOf", "oneOf", "prefixItems"] {
-        for choice in schema.get(key).and_then(Value::as_array).into_iter().flatten() {
-            collect_unbounded(choice, path, found);
-        }
-    }
-}
-
 /// Says of every table of fields that it has no others, and gives its tag the description of the table.
 fn close(schema: &mut Value) {
     match schema {
