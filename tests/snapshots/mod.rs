@@ -9,7 +9,7 @@ mod measured_points;
 use crate::physics::verdict::results;
 use bagnold_harness::case::Tier;
 use bagnold_harness::evidence::ValidationSet;
-use bagnold_harness::metric::{Metric, undeclared};
+use bagnold_harness::metric::{Metric, Quantity, Variant};
 use bagnold_report::{Baseline, GateList, MetricKey, RemovedGates, description};
 use bagnold_validation::REGISTRY;
 use insta::comparator::Comparator;
@@ -41,6 +41,25 @@ impl Comparator for WithinTolerance {
     fn dyn_clone(&self) -> Box<dyn Comparator> {
         Box::new(self.clone())
     }
+}
+
+/// Metrics whose name or unit is not that of a declared quantity; none where a case declares nothing.
+fn undeclared<'a>(quantities: &[Quantity], metrics: &'a [Metric]) -> impl Iterator<Item = &'a Metric> {
+    metrics.iter().filter(|metric| {
+        let declares = |quantity: &Quantity| quantity.name == metric.name && quantity.unit == metric.unit;
+        !quantities.is_empty() && !quantities.iter().any(declares)
+    })
+}
+
+#[test]
+fn undeclared_metric_is_found() {
+    const FRONT: Quantity = Quantity::verified("front", "m", "how far the front has come");
+    let variant = Variant::default();
+    let metrics = [FRONT.of(&variant, 1.0), Metric::observed("fornt", &variant, 1.0, "m")];
+    let names = |quantities: &[Quantity]| undeclared(quantities, &metrics).map(|m| m.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&[FRONT]), ["fornt"]);
+    assert_eq!(names(&[Quantity { unit: "cm", ..FRONT }]), ["front", "fornt"]);
+    assert!(names(&[]).is_empty());
 }
 
 fn assert_as_in_baseline(name: &'static str) {

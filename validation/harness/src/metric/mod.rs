@@ -6,8 +6,8 @@ mod steadiness;
 mod uncertainty;
 pub mod variant;
 
+pub use quantity::Quantity;
 pub use quantity::quantities;
-pub use quantity::{Quantity, undeclared};
 pub use regime::{FlowRegime, PredictionInterval, REGIME_NUMBERS};
 pub use steadiness::unsteadiness;
 pub use uncertainty::{ComparisonPart, Origin, Uncertainty, UncertaintyComponent};

@@ -69,14 +69,6 @@ macro_rules! quantities {
 }
 pub use quantities;
 
-/// Metrics whose name or unit is not that of a declared quantity; none where a case declares nothing.
-pub fn undeclared<'a>(quantities: &[Quantity], metrics: &'a [Metric]) -> impl Iterator<Item = &'a Metric> {
-    metrics.iter().filter(|metric| {
-        let declares = |quantity: &Quantity| quantity.name == metric.name && quantity.unit == metric.unit;
-        !quantities.is_empty() && !quantities.iter().any(declares)
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -87,17 +79,5 @@ mod tests {
         let metric = FRONT.of(&Variant::of("slope", 0.03), 0.5);
         assert_eq!((metric.name.as_str(), metric.unit.as_str(), metric.kind), ("front", "m", MetricKind::Validation));
         assert_eq!(metric.gate, None);
-    }
-
-    #[test]
-    fn undeclared_metric_is_found() {
-        const FRONT: Quantity = Quantity::verified("front", "m", "how far the front has come");
-        let variant = Variant::default();
-        let metrics = [FRONT.of(&variant, 1.0), Metric::observed("fornt", &variant, 1.0, "m")];
-        let names =
-            |quantities: &[Quantity]| undeclared(quantities, &metrics).map(|m| m.name.clone()).collect::<Vec<_>>();
-        assert_eq!(names(&[FRONT]), ["fornt"]);
-        assert_eq!(names(&[Quantity { unit: "cm", ..FRONT }]), ["front", "fornt"]);
-        assert!(names(&[]).is_empty());
     }
 }
