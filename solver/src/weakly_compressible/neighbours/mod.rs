@@ -1,7 +1,6 @@
 //! Neighbour search: a cell grid that fills a Verlet list, in groups of eight particles.
 
 mod block_search;
-pub mod brute_force;
 mod cell_grid;
 mod verlet_list;
 
