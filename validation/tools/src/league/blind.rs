@@ -9,16 +9,10 @@ use crate::number::{four_digits, two_digits};
 use crate::output::FileError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
-use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Folder of the study in a league.
 const FOLDER: &str = "blind/results";
-/// Tables that make the prediction, in the order of its digest.
-const PREDICTED_FROM: [&str; 3] = ["friction.csv", "law.csv", "prediction.csv"];
-/// Hexadecimal digits of a seed, and number of seeds.
-const SEEDS: (usize, usize) = (4, 3);
 
 /// A predicted quantity with the values of the grains.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -60,7 +54,6 @@ struct Measured {
     case: String,
     aspect_ratio: Option<f64>,
     quantity: String,
-    seed: u64,
     value: f64,
 }
 
@@ -87,24 +80,6 @@ pub fn read(league: &Path) -> Result<Vec<BlindComparison>, ToolError> {
         all.iter_mut().filter(is_of).for_each(|one| one.measured.push(row.value));
     }
     Ok(all)
-}
-
-/// Seeds of the grains that were run, and those that the digest of the prediction gives.
-///
-/// # Errors
-/// Tables that cannot be read.
-pub fn seeds(league: &Path) -> Result<(Vec<u64>, Vec<u64>), ToolError> {
-    let folder = league.join(FOLDER);
-    let mut hash = Sha256::new();
-    for path in PREDICTED_FROM.map(|name| folder.join(name)) {
-        hash.update(std::fs::read(&path).map_err(|error| FileError::unreadable(&path, &error))?);
-    }
-    let digits = crate::store::hexadecimal(&hash.finalize());
-    let seed = |k: usize| u64::from_str_radix(&digits[k * SEEDS.0..(k + 1) * SEEDS.0], 16).unwrap_or_default();
-    let run: BTreeSet<u64> = rows::<Measured>(&folder.join("measured.csv"))?.into_iter().map(|row| row.seed).collect();
-    let mut from_digest: Vec<u64> = (0..SEEDS.1).map(seed).collect();
-    from_digest.sort_unstable();
-    Ok((run.into_iter().collect(), from_digest))
 }
 
 impl BlindComparison {
