@@ -73,11 +73,6 @@ impl InputRange {
         Some((path, value.parse().ok()?))
     }
 
-    /// The parameter that it is the range of, as a path.
-    pub fn path(&self) -> Option<&str> {
-        Self::first(&self.low).map(|(path, _)| path)
-    }
-
     /// Position of the case's own value in the range, 0 at the lower and 1 at the upper end `[-]`; none outside.
     pub fn place(&self) -> Option<f64> {
         let (low, high) = (Self::first(&self.low)?, Self::first(&self.high)?);
@@ -122,6 +117,5 @@ mod tests {
         let own = range("low = [\"f=1\"]\nhigh = [\"f=2\"]\nown = 1.5\nonly_for = [\"a=1\"]\nnot_for = [\"b=2\"]");
         let is_of = |variant: &str| own.is_of(&variant.parse().expect("a variant"));
         assert_eq!([is_of("a=1"), is_of("a=1,b=2"), is_of("b=1")], [true, false, false]);
-        assert_eq!(own.path(), Some("f"));
     }
 }

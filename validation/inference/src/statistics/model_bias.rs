@@ -78,13 +78,9 @@ impl ModelBias {
     }
 
     /// Bounds of the ratio M/E of a further comparison with 95 % confidence `[-]`: Student's factor in place of 2, and the
-    /// uncertainty of the bias with it, so that a few comparisons are reported with an interval of due width.
-    pub fn next_ratio(&self) -> (f64, f64) {
-        self.next_ratio_beside(0.0)
-    }
-
-    /// The same of a comparison that has a relative standard uncertainty `[-]` beside, of which the scatter does not know, such as that of
-    /// inputs which all comparisons of an experiment have in common.
+    /// uncertainty of the bias with it, so that a few comparisons are reported with an interval of due width. The comparison may have a
+    /// relative standard uncertainty `[-]` beside, of which the scatter does not know, such as that of inputs which all comparisons of an
+    /// experiment have in common.
     pub fn next_ratio_beside(&self, uncertainty: f64) -> (f64, f64) {
         let n = self.comparisons as f64;
         let (lower, upper) = self.interval;

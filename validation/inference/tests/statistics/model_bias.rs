@@ -21,12 +21,14 @@ fn the_worked_example() {
     assert!((known.bias - 1.001_400_98).abs() < 1e-8, "{known:?}");
     assert!((libm::log(known.interval.1) - 0.0014 - 0.248_414).abs() < 1e-5);
     // 4.30265 · 0.1 · √(4/3)
-    assert!((libm::log(known.next_ratio().1) - 0.496_827).abs() < 1e-5);
-    assert!((known.next_ratio().0 * known.next_ratio().1 - 1.0).abs() < 1e-12);
+    assert!((libm::log(known.next_ratio_beside(0.0).1) - 0.496_827).abs() < 1e-5);
+    assert!((known.next_ratio_beside(0.0).0 * known.next_ratio_beside(0.0).1 - 1.0).abs() < 1e-12);
     // what stands beside adds as squares: a whole deviation of a further comparison makes the reach √2 times as long
     let whole = known.scatter * (1.0 + 1.0 / known.comparisons as f64).sqrt();
     let reach = |(lower, upper): (f64, f64)| libm::log(upper / lower);
-    assert!((reach(known.next_ratio_beside(whole)) / reach(known.next_ratio()) - 2.0_f64.sqrt()).abs() < 1e-12);
+    assert!(
+        (reach(known.next_ratio_beside(whole)) / reach(known.next_ratio_beside(0.0)) - 2.0_f64.sqrt()).abs() < 1e-12
+    );
 }
 
 #[test]
@@ -73,7 +75,7 @@ fn coverage(number: usize, bias: f64, model: f64, experiment: f64) -> (f64, f64,
         let next = all.pop().expect("one more");
         let found = model_bias(&all).expect("ratios");
         of_bias += f64::from(u8::from((found.interval.0..=found.interval.1).contains(&bias)));
-        let (lower, upper) = found.next_ratio();
+        let (lower, upper) = found.next_ratio_beside(0.0);
         of_next += f64::from(u8::from((lower..=upper).contains(&(next.predicted / next.measured))));
         if let Some(own) = found.model_deviation() {
             deviation += own;

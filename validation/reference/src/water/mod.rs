@@ -7,4 +7,4 @@ pub use liquid_column::{
     GATED_WATER_FRONT, HEIGHT_READING, MeasuredFront, MeasuredHeights, NamedFront, OTHER_WATER_FRONTS, WATER_FRONT,
     WATER_HEIGHTS, spread_of_water_fronts,
 };
-pub use rough_channel::{ORIGIN_DEPTH, RoughChannel, roughness_ratio};
+pub use rough_channel::{RoughChannel, roughness_ratio};

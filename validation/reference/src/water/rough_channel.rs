@@ -25,10 +25,6 @@ static LOG_LAW: LazyLock<LogLaw> = LazyLock::new(|| {
     })
 });
 
-/// Depth of the law's origin below the tops of grains, over their diameter k_s `[-]`: 0.6 mm for 5 mm, wherever clear water
-/// over a bed of grains is what something is compared with.
-pub const ORIGIN_DEPTH: f64 = 0.12;
-
 /// k_s/z_0 `[-]`, the roughness of a wall of sand over the height at which the law begins.
 pub fn roughness_ratio() -> f64 {
     LOG_LAW.roughness_ratio
@@ -118,7 +114,7 @@ mod tests {
 
     #[test]
     fn every_bed_of_grains_has_the_same_origin() {
-        let origin = ORIGIN_DEPTH * CHANNEL.sand_roughness;
+        let origin = 0.12 * CHANNEL.sand_roughness;
         assert!((origin - CHANNEL.origin_offset).abs() < 1e-12);
         // the form without an origin would be half of u_* lower at half a grain above the bed
         let lower = RoughChannel { origin_offset: 0.0, ..CHANNEL };

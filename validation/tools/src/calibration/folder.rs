@@ -49,11 +49,6 @@ impl CalibrationFolder {
         Ok(begun)
     }
 
-    /// Path of the folder.
-    pub fn path(&self) -> &Path {
-        &self.folder
-    }
-
     /// Folder of the evaluations.
     pub fn evaluations(&self) -> PathBuf {
         self.folder.join("evaluations")
