@@ -56,7 +56,7 @@ fn the_interval_of_a_shallow_column_holds_what_finer_ones_approach() {
     let members = (2..=20).map(|ensemble_member| PlanarColumn { ensemble_member, ..column(0.5) });
     let records = records([column(0.5)].into_iter().chain(members).collect());
     assert_eq!(records.len(), 20);
-    let metrics = ColumnCase::<2>::metrics(&records);
+    let metrics = (ColumnCase::<2>::METRICS)(&records);
     let shown = metrics.iter().find(|metric| metric.name == "run_out").expect("the column's own run-out");
     let own = records.iter().map(|(_, record)| record.data.run_out());
     let mean = own.clone().sum::<f64>() / records.len() as f64;

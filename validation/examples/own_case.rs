@@ -1,7 +1,7 @@
 //! A case of one's own: a shear wave in a viscous liquid, u = U sin ky, that decays with exp(−ν k² t).
 //! `cargo run --example own_case -- report` judges it.
 
-use bagnold_harness::case::{Case, Flow, ParameterError, Progress, Registry};
+use bagnold_harness::case::{Case, Flow, Judge, ParameterError, Progress, Registry};
 use bagnold_harness::metric::{Confidence, Limit, Metric, Variant};
 use bagnold_harness::{case::recording::record, observation::Recorded};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
@@ -64,7 +64,7 @@ impl Case for ShearWave {
     const NAME: &'static str = "shear-wave";
     const SUMMARY: &'static str = "a shear wave that decays";
     type Flow = Wave;
-    fn metrics(records: &[(Wave, Recorded<f64>)]) -> Vec<Metric> {
+    const METRICS: Judge<Self::Flow> = |records| {
         let error = |(wave, record): &(Wave, Recorded<f64>)| {
             let left = record.data / (-wave.viscosity * TAU * TAU * record.simulated_time).exp();
             Metric::observed("amplitude_error", &wave.variant(), 100.0 * (left - 1.0), "%")
@@ -72,5 +72,5 @@ impl Case for ShearWave {
                 .gated(Limit::Within(-3.0, 3.0), "of second order in the spacing: 20 rows a wave")
         };
         records.iter().map(error).collect()
-    }
+    };
 }

@@ -16,9 +16,8 @@ pub use flow::{BedLoad1dFlow, BedMotion, GrainUnits, LayerStart, LayerStream, Si
 pub use prediction::{BedLoadFlume, TransportPrediction};
 pub use run::BedLoadLayerObservation;
 
-use crate::case::{Case, Flow, RecordOf};
-use crate::figure::Figure;
-use crate::metric::{Metric, Quantity};
+use crate::case::{Case, DrawFigures, Flow, Judge, RecordOf, Tabulate};
+use crate::metric::Quantity;
 use crate::output::Table;
 use crate::reference::one_dimension::bed_load::LayerPoint;
 use crate::store::CodeOrigin;
@@ -48,18 +47,10 @@ impl Case for BedLoad1d {
         validate the physics.";
     type Flow = BedLoad1dFlow;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
-
-    fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
-        metrics::all(records).into_iter().chain(laws::metrics()).collect()
-    }
-
-    fn figures(records: &[BedLoad1dRecord]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn tables(records: &[BedLoad1dRecord]) -> Vec<Table> {
-        records.iter().filter(|(run, _)| run.is_from_rest()).map(profile_table).collect()
-    }
+    const METRICS: Judge<Self::Flow> = |records| metrics::all(records).into_iter().chain(laws::metrics()).collect();
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const TABLES: Tabulate<Self::Flow> =
+        |records| records.iter().filter(|(run, _)| run.is_from_rest()).map(profile_table).collect();
 }
 
 /// Profiles of a layer, cell by cell; what stands at the faces is interpolated.

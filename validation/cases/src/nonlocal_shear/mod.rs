@@ -13,9 +13,8 @@ pub use exact::ExactShear;
 pub use flow::{Drive, NonlocalShearFlow, ShearedGrains};
 pub use probe::ShearObservation;
 
-use crate::case::{Case, Flow, RecordOf};
-use crate::figure::Figure;
-use crate::metric::{Metric, Quantity};
+use crate::case::{Case, DrawFigures, Flow, Judge, RecordOf, Tabulate};
+use crate::metric::Quantity;
 use crate::output::Table;
 use crate::store::CodeOrigin;
 
@@ -41,18 +40,9 @@ impl Case for NonlocalShearFlows {
         chute, and the traction on the plate. The heap also runs under the local law (exact profile, paper tier).";
     type Flow = NonlocalShearFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn tables(records: &[Record]) -> Vec<Table> {
-        records.iter().map(rows).collect()
-    }
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const TABLES: Tabulate<Self::Flow> = |records| records.iter().map(rows).collect();
 }
 
 /// The rows of a run, and the velocity that they ought to have.

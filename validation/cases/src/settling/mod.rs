@@ -10,10 +10,8 @@ mod scene;
 pub use flow::SettlingFlow;
 pub use probe::{SettlingObservation, SettlingSeries};
 
-use crate::case::{Case, Flow, RecordOf};
-use crate::figure::Figure;
-use crate::metric::{Metric, Quantity};
-use crate::output::Table;
+use crate::case::{Case, DrawFigures, Flow, Judge, RecordOf, Tabulate};
+use crate::metric::Quantity;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -44,16 +42,8 @@ impl Case for Settling {
         for the duration of the run only.";
     type Flow = SettlingFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[SettlingRecord]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[SettlingRecord]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn tables(records: &[SettlingRecord]) -> Vec<Table> {
-        records.iter().map(|(run, record)| record.data.series.table(&run.variant())).collect()
-    }
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const TABLES: Tabulate<Self::Flow> =
+        |records| records.iter().map(|(run, record)| record.data.series.table(&run.variant())).collect();
 }

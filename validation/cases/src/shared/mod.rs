@@ -9,13 +9,8 @@ pub(crate) use arrangement::Arrangement;
 pub(crate) use gate::close_by_gate;
 pub(crate) use metrics::printed_laws;
 
-use crate::case::{ExternalObservation, Flow};
-use crate::input::FieldError;
 use crate::reference::one_dimension::bed_load::Stream;
 use bagnold_number::four_digits;
-
-/// Observation of a run from what another code gives of it; none without columns that tell one.
-pub(crate) type FromExternal<F> = Result<Option<ExternalObservation<<F as Flow>::Observation>>, FieldError>;
 
 /// Transport of bed load in the units of flumes with its 95 % interval by a source, from q* and its standard uncertainty `[-]`; none without a
 /// value.

@@ -4,7 +4,6 @@ use super::flow::{ColumnObservation, WaterColumnFlow};
 use super::metrics::{DELAYED_FRONT_ERROR, DELAYED_HEIGHT_ERROR, FRONT_DELAY, FRONT_ERROR, HEIGHT_ERROR};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
-use crate::shared::FromExternal;
 
 /// What a run may yield.
 pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
@@ -27,7 +26,10 @@ pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
 ///
 /// # Errors
 /// A time or a front that is missing beside the other, or a front that ends before the measurement.
-pub(super) fn observe(run: &WaterColumnFlow, given: &ExternalData) -> FromExternal<WaterColumnFlow> {
+pub(super) fn observe(
+    run: &WaterColumnFlow,
+    given: &ExternalData,
+) -> Result<Option<ExternalObservation<ColumnObservation>>, FieldError> {
     let either = |absolute: &str, relative: &str, scale: f64| -> Vec<f64> {
         let absolute = given.series(absolute);
         if absolute.is_empty() {

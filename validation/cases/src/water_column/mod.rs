@@ -7,11 +7,9 @@ mod metrics;
 
 pub use flow::{ColumnObservation, Release, WaterColumnFlow};
 
-use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
-use crate::figure::Figure;
-use crate::metric::{Metric, Quantity};
+use crate::case::{Case, DrawFigures, ExternalSchema, FromExternal, Judge, RecordOf, Tabulate};
+use crate::metric::Quantity;
 use crate::output::Table;
-use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -37,24 +35,14 @@ impl Case for WaterColumn {
     type Flow = WaterColumnFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
-
-    fn metrics(records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn from_external(run: &WaterColumnFlow, given: &ExternalData) -> FromExternal<WaterColumnFlow> {
-        foreign::observe(run, given)
-    }
-
-    fn tables(records: &[Record]) -> Vec<Table> {
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const FROM_EXTERNAL: FromExternal<Self::Flow> = foreign::observe;
+    const TABLES: Tabulate<Self::Flow> = |records| {
         let of_run = |(run, record): &Record| {
             let name = format!("front-{}", crate::case::Flow::variant(run).file_name());
             Table::of_columns(name, &[("t √(2g/a) [-]", &record.data.time[..]), ("x/a [-]", &record.data.front[..])])
         };
         records.iter().map(of_run).collect()
-    }
+    };
 }

@@ -39,6 +39,7 @@ use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::observation::Recorded;
+use crate::output::Table;
 use crate::store::CodeOrigin;
 use clap::ValueEnum;
 use schemars::JsonSchema;
@@ -79,6 +80,20 @@ impl std::fmt::Display for Tier {
 /// A flow and the record of its run.
 pub type RecordOf<F> = (F, Recorded<<F as Flow>::Observation>);
 
+/// From records to metrics.
+pub type Judge<F> = fn(&[RecordOf<F>]) -> Vec<Metric>;
+/// From records to figures.
+pub type DrawFigures<F> = fn(&[RecordOf<F>]) -> Vec<Figure>;
+/// From records to moving pictures.
+pub type Animate<F> = fn(&[RecordOf<F>]) -> Vec<Animation>;
+/// From records to tables.
+pub type Tabulate<F> = fn(&[RecordOf<F>]) -> Vec<Table>;
+/// From the runs of a list to a drawing of their starts.
+pub type Setup<F> = fn(&RunList<F>) -> Option<Figure>;
+/// From what another code gives of a run to an observation; columns that are missing beside others are an error.
+pub type FromExternal<F> =
+    fn(&F, &ExternalData) -> Result<Option<ExternalObservation<<F as Flow>::Observation>>, FieldError>;
+
 /// A canonical case. Implementors hold no state: everything comes from the flows.
 pub trait Case: Sync + 'static {
     /// Name on the command line and in files, kebab-case.
@@ -100,31 +115,15 @@ pub trait Case: Sync + 'static {
     type Flow: Flow;
 
     /// Judges the observations.
-    fn metrics(records: &[RecordOf<Self::Flow>]) -> Vec<Metric>;
+    const METRICS: Judge<Self::Flow>;
     /// Draws the observations.
-    fn figures(_: &[RecordOf<Self::Flow>]) -> Vec<Figure> {
-        Vec::new()
-    }
+    const FIGURES: DrawFigures<Self::Flow> = |_| Vec::new();
     /// Draws what the runs start from; scenes do.
-    fn setup(_: &RunList<Self::Flow>) -> Option<Figure> {
-        None
-    }
+    const SETUP: Setup<Self::Flow> = |_| None;
     /// Moving pictures of the observations; few cases have any.
-    fn animations(_: &[RecordOf<Self::Flow>]) -> Vec<Animation> {
-        Vec::new()
-    }
+    const ANIMATIONS: Animate<Self::Flow> = |_| Vec::new();
     /// The observation of a run from what another code gives of it; none where the case takes single numbers only.
-    ///
-    /// # Errors
-    /// Columns that are missing beside others.
-    fn from_external(
-        _: &Self::Flow,
-        _: &ExternalData,
-    ) -> Result<Option<ExternalObservation<<Self::Flow as Flow>::Observation>>, FieldError> {
-        Ok(None)
-    }
+    const FROM_EXTERNAL: FromExternal<Self::Flow> = |_, _| Ok(None);
     /// Tables for `run`'s output folder: profiles and time series.
-    fn tables(_: &[RecordOf<Self::Flow>]) -> Vec<crate::output::Table> {
-        Vec::new()
-    }
+    const TABLES: Tabulate<Self::Flow> = |_| Vec::new();
 }

@@ -1,6 +1,6 @@
 //! A case for the harness' and the program's own tests: a damped pendulum, cheap and with an exact solution.
 
-use crate::case::{Case, Flow, ParameterError, Progress, RecordOf, Registry, RunCost};
+use crate::case::{Case, Flow, Judge, ParameterError, Progress, Registry, RunCost, Tabulate};
 use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::observation::{Frame, Outcome, Recorded};
 use crate::output::Table;
@@ -85,8 +85,7 @@ impl Case for Pendulum {
     const SUMMARY: &'static str = "damped pendulum for tests";
     const DESCRIPTION: &'static str = "An overdamped pendulum against its exponential decay.";
     type Flow = Swing;
-
-    fn metrics(records: &[RecordOf<Swing>]) -> Vec<Metric> {
+    const METRICS: Judge<Self::Flow> = |records| {
         records
             .iter()
             .map(|(run, record)| {
@@ -97,9 +96,9 @@ impl Case for Pendulum {
                     .gated(Limit::AtMost(run.limit), "first order in the step")
             })
             .collect()
-    }
-    fn tables(records: &[RecordOf<Swing>]) -> Vec<Table> {
+    };
+    const TABLES: Tabulate<Self::Flow> = |records| {
         let rows = records.iter().flat_map(|(_, record)| &record.data).map(|&angle| vec![angle]).collect();
         vec![Table { name: "angle".to_owned(), columns: vec!["angle [rad]".to_owned()], rows }]
-    }
+    };
 }

@@ -1,12 +1,9 @@
 //! The cases `scene` and `scene-space`: what is judged, drawn and written of a scene.
 
 use super::flow::{Dimension, SceneFlow};
-use super::{SceneObservation, SceneRecord, figures, foreign, metrics, series};
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RunList};
-use crate::figure::Figure;
-use crate::input::FieldError;
-use crate::metric::{Metric, Quantity};
-use crate::output::Table;
+use super::{figures, foreign, metrics, series};
+use crate::case::{Case, DrawFigures, ExternalSchema, FromExternal, Judge, Setup, Tabulate};
+use crate::metric::Quantity;
 use crate::store::CodeOrigin;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use std::marker::PhantomData;
@@ -31,27 +28,9 @@ where
     type Flow = SceneFlow<S, D>;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<S, D>();
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
-
-    fn metrics(records: &[SceneRecord<S, D>]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[SceneRecord<S, D>]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn setup(list: &RunList<SceneFlow<S, D>>) -> Option<Figure> {
-        Some(figures::setup(list.flows()))
-    }
-
-    fn from_external(
-        flow: &SceneFlow<S, D>,
-        given: &ExternalData,
-    ) -> Result<Option<ExternalObservation<SceneObservation<D>>>, FieldError> {
-        foreign::observe(flow, given)
-    }
-
-    fn tables(records: &[SceneRecord<S, D>]) -> Vec<Table> {
-        series::tables(records)
-    }
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const SETUP: Setup<Self::Flow> = |list| Some(figures::setup(list.flows()));
+    const FROM_EXTERNAL: FromExternal<Self::Flow> = foreign::observe;
+    const TABLES: Tabulate<Self::Flow> = series::tables;
 }

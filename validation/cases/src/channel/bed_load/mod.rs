@@ -15,12 +15,9 @@ mod scenes;
 pub use flow::{BedLoadFlow, BedLoadFormulation, Continuum, GrainParticles};
 pub use observation::BedLoadObservation;
 
-use crate::case::{Case, ExternalData, ExternalSchema, Flow, RecordOf};
+use crate::case::{Case, DrawFigures, ExternalSchema, Flow, FromExternal, Judge, RecordOf, Tabulate};
 use crate::channel;
-use crate::figure::Figure;
-use crate::metric::{Metric, Quantity};
-use crate::output::Table;
-use crate::shared::FromExternal;
+use crate::metric::Quantity;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -48,20 +45,10 @@ impl Case for BedLoad {
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
     type Flow = BedLoadFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[BedLoadRecord]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[BedLoadRecord]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn from_external(run: &BedLoadFlow, given: &ExternalData) -> FromExternal<BedLoadFlow> {
-        foreign::observe(run, given).map(Some)
-    }
-
-    fn tables(records: &[BedLoadRecord]) -> Vec<Table> {
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const FROM_EXTERNAL: FromExternal<Self::Flow> = |run, given| foreign::observe(run, given).map(Some);
+    const TABLES: Tabulate<Self::Flow> = |records| {
         let of_run = |(run, record): &BedLoadRecord| {
             let variant = run.variant();
             let mut tables = channel::tables(&variant, &record.data.channel);
@@ -70,5 +57,5 @@ impl Case for BedLoad {
             tables
         };
         records.iter().flat_map(of_run).collect()
-    }
+    };
 }

@@ -7,12 +7,9 @@ mod metrics;
 
 pub use flow::{ClearWaterFlow, Period};
 
-use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
+use crate::case::{Case, DrawFigures, ExternalSchema, FromExternal, Judge, RecordOf, Tabulate};
 use crate::channel;
-use crate::figure::Figure;
-use crate::metric::{Metric, Quantity};
-use crate::output::Table;
-use crate::shared::FromExternal;
+use crate::metric::Quantity;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -38,20 +35,9 @@ impl Case for ClearWater {
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
     type Flow = ClearWaterFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[ClearWaterRecord]) -> Vec<Metric> {
-        records.iter().flat_map(metrics::of_run).chain(laws::metrics()).collect()
-    }
-
-    fn figures(records: &[ClearWaterRecord]) -> Vec<Figure> {
-        vec![figures::profiles(records)]
-    }
-
-    fn from_external(_: &ClearWaterFlow, given: &ExternalData) -> FromExternal<ClearWaterFlow> {
-        channel::foreign::observe(given).map(Some)
-    }
-
-    fn tables(records: &[ClearWaterRecord]) -> Vec<Table> {
-        channel::tables_of_runs(records)
-    }
+    const METRICS: Judge<Self::Flow> =
+        |records| records.iter().flat_map(metrics::of_run).chain(laws::metrics()).collect();
+    const FIGURES: DrawFigures<Self::Flow> = |records| vec![figures::profiles(records)];
+    const FROM_EXTERNAL: FromExternal<Self::Flow> = |_, given| channel::foreign::observe(given).map(Some);
+    const TABLES: Tabulate<Self::Flow> = channel::tables_of_runs;
 }

@@ -6,11 +6,9 @@ mod metrics;
 
 pub use flow::StillWaterFlow;
 
-use crate::case::{Case, RecordOf};
+use crate::case::{Case, DrawFigures, Judge, RecordOf, Tabulate};
 use crate::channel;
-use crate::figure::Figure;
-use crate::metric::{Metric, Quantity};
-use crate::output::Table;
+use crate::metric::Quantity;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -34,16 +32,9 @@ impl Case for StillWater {
         Observed only. Vertical velocity of shorter runs, and iterations of the solvers.";
     type Flow = StillWaterFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[StillWaterRecord]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[StillWaterRecord]) -> Vec<Figure> {
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = |records| {
         [figures::pressure(records), figures::rest(records)].into_iter().chain(figures::states(records)).collect()
-    }
-
-    fn tables(records: &[StillWaterRecord]) -> Vec<Table> {
-        channel::tables_of_runs(records)
-    }
+    };
+    const TABLES: Tabulate<Self::Flow> = channel::tables_of_runs;
 }

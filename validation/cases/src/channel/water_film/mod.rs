@@ -6,12 +6,9 @@ mod metrics;
 
 pub use flow::WaterFilmFlow;
 
-use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
+use crate::case::{Case, DrawFigures, ExternalSchema, FromExternal, Judge, RecordOf, Tabulate};
 use crate::channel;
-use crate::figure::Figure;
-use crate::metric::{Metric, Quantity};
-use crate::output::Table;
-use crate::shared::FromExternal;
+use crate::metric::Quantity;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -37,20 +34,8 @@ impl Case for WaterFilm {
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
     type Flow = WaterFilmFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[WaterFilmRecord]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[WaterFilmRecord]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn from_external(_: &WaterFilmFlow, given: &ExternalData) -> FromExternal<WaterFilmFlow> {
-        channel::foreign::observe(given).map(Some)
-    }
-
-    fn tables(records: &[WaterFilmRecord]) -> Vec<Table> {
-        channel::tables_of_runs(records)
-    }
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const FROM_EXTERNAL: FromExternal<Self::Flow> = |_, given| channel::foreign::observe(given).map(Some);
+    const TABLES: Tabulate<Self::Flow> = channel::tables_of_runs;
 }

@@ -1,12 +1,9 @@
 //! The cases of columns: planar ones (`D = 2`), and round ones in space (`D = 3`), the experiment of Lube et al. (2004).
 
-use crate::case::{Case, ExternalData, ExternalSchema};
+use crate::case::{Animate, Case, DrawFigures, ExternalSchema, FromExternal, Judge, Tabulate};
 use crate::collapse::external::column::{self, EXTERNAL_SCHEMA};
-use crate::collapse::{CollapseRecord, ColumnFlow, figures, metrics, tables};
-use crate::figure::{Animation, Figure};
-use crate::metric::{Metric, Quantity};
-use crate::output::Table;
-use crate::shared::FromExternal;
+use crate::collapse::{ColumnFlow, figures, metrics, tables};
+use crate::metric::Quantity;
 use crate::store::CodeOrigin;
 
 const PLANAR: &str = "\
@@ -60,24 +57,9 @@ impl<const D: usize> Case for ColumnCase<D> {
     const EXTERNAL_SCHEMA: ExternalSchema = EXTERNAL_SCHEMA;
     type Flow = ColumnFlow<D>;
     const QUANTITIES: &'static [Quantity] = metrics::quantities::QUANTITIES;
-
-    fn metrics(records: &[CollapseRecord<D>]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[CollapseRecord<D>]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn animations(records: &[CollapseRecord<D>]) -> Vec<Animation> {
-        figures::animations(records)
-    }
-
-    fn from_external(run: &ColumnFlow<D>, given: &ExternalData) -> FromExternal<ColumnFlow<D>> {
-        column::observe(run, given).map(Some)
-    }
-
-    fn tables(records: &[CollapseRecord<D>]) -> Vec<Table> {
-        records.iter().flat_map(tables).collect()
-    }
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const ANIMATIONS: Animate<Self::Flow> = figures::animations;
+    const FROM_EXTERNAL: FromExternal<Self::Flow> = |run, given| column::observe(run, given).map(Some);
+    const TABLES: Tabulate<Self::Flow> = |records| records.iter().flat_map(tables).collect();
 }

@@ -5,12 +5,10 @@ mod inside;
 mod metrics;
 mod passage;
 
-use crate::case::{Case, ExternalData, ExternalSchema, Flow, RecordOf};
+use crate::case::{Animate, Case, DrawFigures, ExternalSchema, Flow, FromExternal, Judge, RecordOf, Tabulate};
 use crate::collapse::{self, SlopeFlow};
-use crate::figure::{Animation, Figure};
-use crate::metric::{Metric, Quantity};
+use crate::metric::Quantity;
 use crate::output::Table;
-use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -39,26 +37,14 @@ impl Case for InclineCollapse {
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::slope::EXTERNAL_SCHEMA;
     type Flow = SlopeFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[Record]) -> Vec<Metric> {
+    const METRICS: Judge<Self::Flow> = |records| {
         records.iter().flat_map(|record| [metrics::of_run(record), passage::metrics(record)].concat()).collect()
-    }
-
-    fn figures(records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn animations(records: &[Record]) -> Vec<Animation> {
-        figures::animations(records)
-    }
-
-    fn from_external(run: &SlopeFlow, given: &ExternalData) -> FromExternal<SlopeFlow> {
-        collapse::external::slope::observe(run, given).map(Some)
-    }
-
-    fn tables(records: &[Record]) -> Vec<Table> {
-        records.iter().map(table).collect()
-    }
+    };
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const ANIMATIONS: Animate<Self::Flow> = figures::animations;
+    const FROM_EXTERNAL: FromExternal<Self::Flow> =
+        |run, given| collapse::external::slope::observe(run, given).map(Some);
+    const TABLES: Tabulate<Self::Flow> = |records| records.iter().map(table).collect();
 }
 
 /// Time series of one run.

@@ -6,12 +6,9 @@ mod metrics;
 
 pub use flow::FilmFlow;
 
-use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
-use crate::figure::Figure;
+use crate::case::{Case, DrawFigures, ExternalSchema, FromExternal, Judge, RecordOf, Tabulate};
 use crate::layer;
-use crate::metric::{Metric, Quantity};
-use crate::output::Table;
-use crate::shared::FromExternal;
+use crate::metric::Quantity;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -36,20 +33,9 @@ impl Case for Film {
     const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
     type Flow = FilmFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn from_external(run: &FilmFlow, given: &ExternalData) -> FromExternal<FilmFlow> {
-        layer::foreign::observe(&run.layer(&|_| 0.0), given).map(Some)
-    }
-
-    fn tables(records: &[Record]) -> Vec<Table> {
-        layer::tables_of_runs(records)
-    }
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const FROM_EXTERNAL: FromExternal<Self::Flow> =
+        |run, given| layer::foreign::observe(&run.layer(&|_| 0.0), given).map(Some);
+    const TABLES: Tabulate<Self::Flow> = layer::tables_of_runs;
 }

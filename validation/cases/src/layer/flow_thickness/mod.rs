@@ -8,10 +8,9 @@ mod start_stop;
 pub use flow::{FlowThicknessFlow, FlowThicknessObservation};
 pub use start_stop::{LayerFate, SlopeTrial, StartStop};
 
-use crate::case::{Case, Flow, RecordOf};
-use crate::figure::Figure;
+use crate::case::{Case, DrawFigures, Flow, Judge, RecordOf, Tabulate};
 use crate::layer::LayerObservation;
-use crate::metric::{Metric, Quantity};
+use crate::metric::Quantity;
 use crate::output::Table;
 use crate::store::CodeOrigin;
 use bagnold_solver::material::rheology::Rheology;
@@ -37,18 +36,9 @@ impl Case for FlowThickness {
         h/h_stop. With (41) this is an identity of the law: it verifies the solver only.";
     type Flow = FlowThicknessFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[Record]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[Record]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn tables(records: &[Record]) -> Vec<Table> {
-        records.iter().filter_map(trials).collect()
-    }
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const TABLES: Tabulate<Self::Flow> = |records| records.iter().filter_map(trials).collect();
 }
 
 /// The trials of a search.

@@ -7,12 +7,9 @@ mod metrics;
 
 pub use flow::HydrostaticFlow;
 
-use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
-use crate::figure::Figure;
+use crate::case::{Case, DrawFigures, ExternalSchema, FromExternal, Judge, RecordOf, Tabulate};
 use crate::layer;
-use crate::metric::{Metric, Quantity};
-use crate::output::Table;
-use crate::shared::FromExternal;
+use crate::metric::Quantity;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -35,20 +32,8 @@ impl Case for Hydrostatic {
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
     type Flow = HydrostaticFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-
-    fn metrics(records: &[HydrostaticRecord]) -> Vec<Metric> {
-        metrics::all(records)
-    }
-
-    fn figures(records: &[HydrostaticRecord]) -> Vec<Figure> {
-        figures::all(records)
-    }
-
-    fn from_external(run: &HydrostaticFlow, given: &ExternalData) -> FromExternal<HydrostaticFlow> {
-        foreign::observe(run, given).map(Some)
-    }
-
-    fn tables(records: &[HydrostaticRecord]) -> Vec<Table> {
-        layer::tables_of_runs(records)
-    }
+    const METRICS: Judge<Self::Flow> = metrics::all;
+    const FIGURES: DrawFigures<Self::Flow> = figures::all;
+    const FROM_EXTERNAL: FromExternal<Self::Flow> = |run, given| foreign::observe(run, given).map(Some);
+    const TABLES: Tabulate<Self::Flow> = layer::tables_of_runs;
 }

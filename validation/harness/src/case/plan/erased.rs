@@ -226,10 +226,10 @@ impl<C: Case> CasePlan<C> {
             .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
             .map(|(run, record, from_store)| (summary(&run, &record, from_store), (run, record)))
             .unzip();
-        let mut metrics = completed(C::NAME, C::metrics(&records));
-        let figures = C::figures(&records);
-        let animations = C::animations(&records);
-        let tables = C::tables(&records);
+        let mut metrics = completed(C::NAME, (C::METRICS)(&records));
+        let figures = (C::FIGURES)(&records);
+        let animations = (C::ANIMATIONS)(&records);
+        let tables = (C::TABLES)(&records);
         let regimes = records.iter().map(|(run, record)| run.regime(&record.data)).collect();
         let run_parameters = records.iter().map(|(run, _)| as_json(run)).collect();
         let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
@@ -260,12 +260,12 @@ impl<C: Case> CasePlan<C> {
     fn said(&self, records: Vec<RecordOf<C::Flow>>) -> ExternalResult {
         let mut said = ExternalResult::default();
         for (label, records) in by_label(records, |(run, _)| self.parameters.label(run)) {
-            let metrics = C::metrics(&records).into_iter();
+            let metrics = (C::METRICS)(&records).into_iter();
             said.metrics
                 .extend(metrics.map(|metric| Metric { variant: metric.variant.clone().followed_by(&label), ..metric }));
-            let figures = C::figures(&records).into_iter();
+            let figures = (C::FIGURES)(&records).into_iter();
             said.figures.extend(figures.map(|figure| Figure { name: figure.name + &label.suffix(), ..figure }));
-            let tables = C::tables(&records).into_iter();
+            let tables = (C::TABLES)(&records).into_iter();
             said.tables.extend(tables.map(|table| Table { name: table.name + &label.suffix(), ..table }));
         }
         said
@@ -295,7 +295,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     }
 
     fn setup(&self) -> Option<Figure> {
-        C::setup(&self.parameters)
+        (C::SETUP)(&self.parameters)
     }
 
     fn run_count(&self) -> usize {
@@ -371,7 +371,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     fn asked(&self) -> ExternalResult {
         let nothing = ExternalData::default();
         let record = |(run, _): &Slot<C::Flow>| {
-            let seen = C::from_external(run, &nothing).ok().flatten()?;
+            let seen = (C::FROM_EXTERNAL)(run, &nothing).ok().flatten()?;
             Some((run.clone(), nothing.record(seen.observation)))
         };
         ExternalResult { tables: Vec::new(), ..self.said(self.slots.iter().filter_map(record).collect()) }
@@ -381,7 +381,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         let record = |(run, _): &Slot<C::Flow>| Some((run.clone(), ExternalData::default().record(run.outline()?)));
         let records: Option<Vec<RecordOf<C::Flow>>> = self.slots.iter().map(record).collect();
         let of_label = |(label, records): (Variant, Vec<RecordOf<C::Flow>>)| {
-            let (name, figures, tables) = (C::NAME.to_owned(), C::figures(&records), C::tables(&records));
+            let (name, figures, tables) = (C::NAME.to_owned(), (C::FIGURES)(&records), (C::TABLES)(&records));
             CaseResult { name, figures, tables, ..CaseResult::default() }.labelled(&label, Variant::clone)
         };
         let parts = by_label(records?, |(run, _)| self.parameters.label(run));
@@ -409,7 +409,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             if given.is_empty() {
                 continue;
             }
-            if let Some(foreign) = C::from_external(run, given).map_err(|error| (number, error))? {
+            if let Some(foreign) = (C::FROM_EXTERNAL)(run, given).map_err(|error| (number, error))? {
                 measured.push((self.parameters.variant_of(run), foreign.measured));
                 records.push((run.clone(), given.record(foreign.observation)));
             }
