@@ -19,7 +19,7 @@ const AXES: [&str; 3] = ["x [m]", "y [m]", "z [m]"];
 pub(crate) fn all<S: Dimension<D>, const D: usize>(records: &[SceneRecord<S, D>]) -> Vec<Figure> {
     let of_run = |(parameters, record): &SceneRecord<S, D>| {
         // another code's front comes without pictures
-        let pictures = (!record.frames.is_empty()).then(|| S::pictures(parameters, &record.frames));
+        let pictures = (!record.frames.is_empty()).then(|| (S::PICTURES)(parameters, &record.frames));
         pictures.into_iter().chain(gauges(parameters, &record.data))
     };
     records.iter().flat_map(of_run).collect()
@@ -96,7 +96,7 @@ fn start<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>) -> (Stri
         SiteFate::Behind => 1.0,
     };
     let sites: Vec<_> = sites.iter().map(|&(place, fate)| (place, value(fate))).collect();
-    (caption, S::setup(parameters, &sites))
+    (caption, (S::SETUP)(parameters, &sites))
 }
 
 /// Panels of a figure of gauges, and such figures of a scene at most: a sheet of 5000 panels takes 10 GB.

@@ -23,6 +23,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 
+/// From a scene and its sites to the panels of a figure.
+pub type DrawSites<S, const D: usize> = fn(&SceneFlow<S, D>, &[(Vector<D>, f64)]) -> Vec<Panel>;
+/// From a scene and its frames to a figure.
+pub type DrawFrames<S, const D: usize> = fn(&SceneFlow<S, D>, &[Frame]) -> Figure;
+
 /// The plane (D = 2) or space (D = 3).
 pub trait Dimension<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Sync + 'static {
     /// Coordinates or components along the axes, as a case file gives them.
@@ -62,10 +67,9 @@ pub trait Dimension<const D: usize>: Debug + Clone + Copy + PartialEq + Send + S
     const FLUX_UNIT: &'static str;
 
     /// Places of the start between walls, inlets and what is measured, with a value each from 0 to 1; a panel a view.
-    fn setup(parameters: &SceneFlow<Self, D>, sites: &[(Vector<D>, f64)]) -> Vec<Panel>;
-
+    const SETUP: DrawSites<Self, D>;
     /// Pictures of the material between its walls.
-    fn pictures(parameters: &SceneFlow<Self, D>, frames: &[Frame]) -> Figure;
+    const PICTURES: DrawFrames<Self, D>;
 }
 
 /// A scene of the cases `scene` and `scene-space`.

@@ -40,7 +40,7 @@ mod wall_load;
 mod wall_turn;
 mod yields;
 
-pub use flow::{Dimension, SceneFlow, SceneStart};
+pub use flow::{Dimension, DrawFrames, DrawSites, SceneFlow, SceneStart};
 pub use given::PlainData;
 pub use given_load::GivenLoad;
 pub use given_rate::{GivenRate, TableEnds};

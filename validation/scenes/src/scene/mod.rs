@@ -11,10 +11,7 @@ pub use gauge::PlaneGauge;
 pub use inlet::PlaneInlet;
 pub use wall::{FlowSide, PlaneSides, WallLine};
 
-use super::enclosed::{Dimension, SceneCase, SceneFlow, SideSearch};
-use crate::figure::{Figure, Panel};
-use crate::observation::Frame;
-use bagnold_solver::vector::Vector;
+use super::enclosed::{Dimension, DrawFrames, DrawSites, SceneCase, SceneFlow, SideSearch};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 /// Two coordinates or components along x and y.
@@ -54,14 +51,8 @@ impl Dimension<2> for Plane {
     const FORCE_UNIT: &'static str = "N/m";
     const MASS_UNIT: &'static str = "kg/m";
     const FLUX_UNIT: &'static str = "kg/(m s)";
-
-    fn setup(parameters: &PlaneFlow, sites: &[(Vector<2>, f64)]) -> Vec<Panel> {
-        figures::setup(parameters, sites)
-    }
-
-    fn pictures(parameters: &PlaneFlow, frames: &[Frame]) -> Figure {
-        figures::pictures(parameters, frames)
-    }
+    const SETUP: DrawSites<Self, 2> = figures::setup;
+    const PICTURES: DrawFrames<Self, 2> = figures::pictures;
 }
 
 /// The case.

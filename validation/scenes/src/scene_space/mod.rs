@@ -12,10 +12,7 @@ pub use gauge::SpaceGauge;
 pub use inlet::SpaceInlet;
 pub use wall::{SpaceSides, SpaceWall};
 
-use super::enclosed::{Dimension, SceneCase, SceneFlow, SideSearch};
-use crate::figure::{Figure, Panel};
-use crate::observation::Frame;
-use bagnold_solver::vector::Vector;
+use super::enclosed::{Dimension, DrawFrames, DrawSites, SceneCase, SceneFlow, SideSearch};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 /// Three coordinates or components along x, y and z.
@@ -56,14 +53,8 @@ impl Dimension<3> for Space {
     const FORCE_UNIT: &'static str = "N";
     const MASS_UNIT: &'static str = "kg";
     const FLUX_UNIT: &'static str = "kg/s";
-
-    fn setup(parameters: &SpaceFlow, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
-        figures::setup(parameters, sites)
-    }
-
-    fn pictures(parameters: &SpaceFlow, frames: &[Frame]) -> Figure {
-        figures::pictures(parameters, frames)
-    }
+    const SETUP: DrawSites<Self, 3> = figures::setup;
+    const PICTURES: DrawFrames<Self, 3> = figures::pictures;
 }
 
 /// The case.
