@@ -92,7 +92,7 @@ where
             if let Err(divergence) = simulation.step() {
                 let defect = format!("the simulation diverges while the bodies settle ({divergence})");
                 let remedy = "remove `preparation` to see the start of the divergence";
-                return Err(refused_for(&defect, "", remedy));
+                return Err(refused_for(&defect, remedy));
             }
             let speed = rms_speed(&simulation);
             let creeps = speed <= rest.speed && simulation.time() > LONGEST_SWING * rest.crossing;
@@ -169,7 +169,7 @@ fn check_held<const D: usize>(
 ) -> Result<(), ParameterError> {
     if places.len() < starts.len() {
         let left = starts.len() - places.len();
-        return Err(refused_for(&format!("{left} particles leave by open sides before the bodies rest"), "", SUPPORT));
+        return Err(refused_for(&format!("{left} particles leave by open sides before the bodies rest"), SUPPORT));
     }
     let periods = Periods::of(&scene.domain.axes);
     // what has wrapped at periodic sides is near its start beyond them
@@ -186,7 +186,7 @@ fn check_held<const D: usize>(
     let moves = format!("particle initially at ({from}) m moves more than a spacing ({} m)", scene.spacing);
     if rest.speed.is_infinite() {
         let remedy = "support the bodies with walls, or set `preparation` to \"settled\"";
-        return Err(refused_for(&format!("{moves} while settling as a liquid"), "", remedy));
+        return Err(refused_for(&format!("{moves} while settling as a liquid"), remedy));
     }
     let (across, along) = periods.split(&scene.gravity);
     let mean = ways.iter().sum::<Vector<D>>() / ways.len() as f64;
@@ -195,14 +195,14 @@ fn check_held<const D: usize>(
         let held = scene.rheology.strength_at_rest(pressure).map_or(0.0, |strength| strength / pressure);
         let slope = along.norm() / across.norm();
         let value = format!("{moves}; slope tangent {slope:.3}, static friction {held:.3}");
-        return Err(refused_for(&value, "", "set `preparation` to \"stressed\" for grains, or remove it"));
+        return Err(refused_for(&value, "set `preparation` to \"stressed\" for grains, or remove it"));
     }
     if mean.norm() < STIRRED * scene.spacing {
         let value = format!("{moves}, and the material keeps mixing at {speed:.1e} m/s");
-        return Err(refused_for(&value, "", &raise(speed, rest)));
+        return Err(refused_for(&value, &raise(speed, rest)));
     }
     let is_liquid = matches!(scene.rheology, Rheology::Newtonian(_));
-    Err(refused_for(&moves, "", if is_liquid { SUPPORT_OF_LIQUID } else { SUPPORT }))
+    Err(refused_for(&moves, if is_liquid { SUPPORT_OF_LIQUID } else { SUPPORT }))
 }
 
 const SUPPORT_OF_LIQUID: &str = "close open sides, or remove `preparation`: inclined walls keep liquid circulating";
@@ -214,7 +214,7 @@ fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
         LONGEST * rest.crossing,
         rest.speed
     );
-    refused_for(&value, "", &raise(speed, rest))
+    refused_for(&value, &raise(speed, rest))
 }
 
 /// Remedy for bodies that keep a speed `[m/s]`.
@@ -222,6 +222,6 @@ fn raise(speed: f64, rest: RestCriterion) -> String {
     format!("raise `rest_speed` to {:.0e}, or remove `preparation`", 1.1 * speed / rest.fall)
 }
 
-fn refused_for(value: &str, rule: &str, remedy: &str) -> ParameterError {
-    ParameterError::field("preparation", value, rule, remedy)
+fn refused_for(value: &str, remedy: &str) -> ParameterError {
+    ParameterError::field("preparation", value, "", remedy)
 }
