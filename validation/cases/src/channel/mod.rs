@@ -39,7 +39,7 @@ pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
 pub use tables::{tables, tables_of_runs};
 pub use water::Water;
 
-use crate::case::recording::{Ending, RestartableRun, SimulationStage, Stop, follow_on};
+use crate::case::recording::{Ending, RestartableRun, SimulationStage, Stop, follow};
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Recorded};
 use crate::setup::Lattice;
@@ -187,7 +187,7 @@ impl<'a> Channel<'a> {
             frames: Vec::new(),
             beside,
         };
-        let followed = follow_on(
+        let followed = follow(
             stage,
             None,
             |_| Ok::<_, SceneError>(self.scene()),

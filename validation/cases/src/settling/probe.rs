@@ -114,6 +114,7 @@ impl Probe {
         };
         let followed = follow(
             stage,
+            None,
             |_| Ok::<_, SceneError>(scene.clone()),
             begin,
             |seen, simulation| {
@@ -124,6 +125,7 @@ impl Probe {
                 }
                 ControlFlow::Continue(())
             },
+            |_| Ok(()),
         )?;
         let RestartableRun { simulation, stop, kept: SettlingObserver { last_good, observation, .. }, started } =
             followed;

@@ -207,7 +207,7 @@ where
             pictures: pictures(),
             passed: None,
         };
-        let RestartableRun { simulation, stop, kept: (last_good, watch), started } = recording::follow_on(
+        let RestartableRun { simulation, stop, kept: (last_good, watch), started } = recording::follow(
             stage,
             state.as_ref(),
             |beginning| match beginning {

@@ -126,6 +126,7 @@ impl SlopeSearch<'_> {
         };
         let followed = follow(
             stage,
+            None,
             |beginning| layer.scene_for(beginning),
             begin,
             |seen, simulation| {
@@ -150,6 +151,7 @@ impl SlopeSearch<'_> {
                 *last_good = snapshot;
                 if fate == LayerFate::Undecided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
+            |_| Ok(()),
         )?;
         let RestartableRun { simulation, stop, kept: LayerObserver { trial, last_good, .. }, started } = followed;
         let criterion = "the slope at which the layer stops is bracketed".to_owned();

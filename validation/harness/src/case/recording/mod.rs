@@ -9,7 +9,7 @@ mod picture;
 mod restart;
 mod weakly_compressible;
 
-pub use restart::{Restartable, RestartableRun, SimulationStage, StartState, Stop, follow, follow_on, resumed};
+pub use restart::{Restartable, RestartableRun, SimulationStage, StartState, Stop, follow, resumed};
 
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Outcome, Recorded, state_hash};
@@ -69,6 +69,7 @@ where
     let SimulationStage { progress, end, .. } = stage;
     let followed = follow(
         stage,
+        None,
         scene,
         |simulation: &Simulation<D>| (simulation.snapshot(), keep(simulation)),
         |(last_good, kept), simulation| {
@@ -76,6 +77,7 @@ where
             progress.advance(last_good.time, end, simulation.steps() as f64 * last_good.mass.len() as f64);
             observe(kept, last_good)
         },
+        |_| Ok(()),
     )?;
     let RestartableRun { simulation, stop, kept: (last_good, kept), started } = followed;
     Ok(ObservedRun { simulation, ending: Ending::of(stop, last_good, started), kept })

@@ -122,32 +122,13 @@ pub fn resumed<C: DeserializeOwned>(progress: &Progress) -> Option<C> {
 }
 
 /// Runs a simulation and shows it to `observe` at the start, at intervals and at the end, until that breaks, together with
-/// what it keeps, which `keep` makes at the start of a new run. An interrupted run resumes at its last checkpoint.
+/// what it keeps, which `keep` makes at the start of a new run. An interrupted run resumes at its last checkpoint; one that is
+/// longer than a finished one continues near its end. `adopt` makes of what that run has kept what this one would have kept by
+/// then, or says why not, as the rest of a sentence about that run. A new run may start from a stored state.
 ///
 /// # Errors
 /// A scene that breaks a rule or cannot be made; an interruption.
 pub fn follow<S, O, C, E>(
-    stage: SimulationStage<'_, C>,
-    scene: impl Fn(StartState) -> Result<S::Scene, E>,
-    keep: impl FnOnce(&S) -> O,
-    observe: impl FnMut(&mut O, &S) -> ControlFlow<()>,
-) -> Result<RestartableRun<S, O>, ParameterError>
-where
-    S: Restartable,
-    O: Serialize + DeserializeOwned,
-    C: Serialize + DeserializeOwned,
-    E: Into<ParameterError> + Display,
-    for<'scene> Conditions: From<&'scene S::Scene>,
-{
-    follow_on(stage, None, scene, keep, observe, |_| Ok(()))
-}
-
-/// As [`follow`]; a run that is longer than a finished one continues near its end. `adopt` makes of what that run has kept what this one
-/// would have kept by then, or says why not, as the rest of a sentence about that run. A new run may start from a stored state.
-///
-/// # Errors
-/// A scene that breaks a rule or cannot be made; an interruption.
-pub fn follow_on<S, O, C, E>(
     stage: SimulationStage<'_, C>,
     state: Option<&StoredState>,
     scene: impl Fn(StartState) -> Result<S::Scene, E>,
