@@ -274,7 +274,6 @@ impl FieldLaw for OpenField {
             return field.memory;
         }
         let [first, second, third] = field.memory;
-        let ends = [end.shear_stress, end.field];
         let values = [
             trial.shear_stress,
             trial.pressure,
@@ -284,8 +283,8 @@ impl FieldLaw for OpenField {
             first,
             second,
             third,
-            ends[0],
-            ends[1],
+            end.shear_stress,
+            end.field,
         ];
         let after = |values: [f64; 10]| {
             let [shear_stress, pressure, value, gain, loss, first, second, third, at_end, field] = values;
@@ -293,11 +292,7 @@ impl FieldLaw for OpenField {
             let before = FieldStep::new(value, gain, loss).with_memory([first, second, third]);
             self.0.law.memory_after(&trial, &before, &FieldReturn { shear_stress: at_end, field })
         };
-        [
-            R::lane_by_lane(values, &|values| after(values)[0]),
-            R::lane_by_lane(values, &|values| after(values)[1]),
-            R::lane_by_lane(values, &|values| after(values)[2]),
-        ]
+        std::array::from_fn(|place| R::lane_by_lane(values, &|values| after(values)[place]))
     }
 
     fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: &FieldStep<R>, _elastic_viscosity: f64) -> R {
