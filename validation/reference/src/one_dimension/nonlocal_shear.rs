@@ -163,11 +163,6 @@ impl NonlocalShearProfile {
         self.interpolated(&self.fluidities, distance) * self.interpolated(&self.frictions, distance)
     }
 
-    /// Length u/|du/dy| `[m]` over which the velocity falls by e, at a distance from the near end `[m]`; not a number at rest.
-    pub fn decay_length(&self, distance: f64) -> f64 {
-        self.velocity(distance) / self.shear_rate(distance)
-    }
-
     /// Distance from the far end `[m]` within which the velocity relative to the near end falls by e: the layer in which a chute
     /// shears at its wall. None at rest.
     pub fn wall_layer(&self) -> Option<f64> {

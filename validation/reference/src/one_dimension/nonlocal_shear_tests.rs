@@ -11,6 +11,13 @@ const BEADS: MuI = MuI {
     grain_density: 2450.0,
 };
 
+impl NonlocalShearProfile {
+    /// Length u/|du/dy| `[m]` over which the velocity falls by e, at a distance from the near end `[m]`; not a number at rest.
+    fn decay_length(&self, distance: f64) -> f64 {
+        self.velocity(distance) / self.shear_rate(distance)
+    }
+}
+
 fn beads(grains: f64, stress: ShearStress, ends: [FieldBoundary; 2]) -> NonlocalShear {
     NonlocalShear { grains: BEADS, cooperativity: 0.48, thickness: grains * DIAMETER, stress, ends }
 }
