@@ -9,8 +9,7 @@ use super::phase::{Phase, Phases};
 use super::projection::Projection;
 use super::scene::IncompressibleScene;
 use super::velocity_solve::VelocitySystem;
-use crate::run::Divergence;
-use crate::run::SceneError;
+use crate::run::{Divergence, SceneError};
 use crate::vector::Vector;
 
 /// Both phases, the storage of the passes, and the time.

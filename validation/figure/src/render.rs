@@ -1,11 +1,10 @@
 //! Figure → SVG → PNG and PDF.
 
-use super::Figure;
 use super::canvas::UNITS_PER_PIXEL;
 use super::error::FigureError;
 use super::format::FigureFormat;
 use super::pdf::page;
-use super::{raster, sheet};
+use super::{Figure, raster, sheet};
 
 /// Draws `figure` as SVG; the same data give the same bytes on any machine.
 ///

@@ -1,13 +1,12 @@
 //! `bagnold run`: one case or study into one folder, with its page.
 
-use super::Exit;
 use super::arguments::RunArguments;
 use super::error::ProgramError;
 use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
 use super::simulation::{announce, estimate, introduce, reject_fast, simulate_showing};
-use super::{say, terminal};
+use super::{Exit, say, terminal};
 use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, Tier, settings_to_vary};
 use crate::checkpoint::{BULK_MODULUS, Checkpoints, StoredState};
 use crate::measured::{draw_measured, read_overlay};

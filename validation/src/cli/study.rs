@@ -1,13 +1,12 @@
 //! `bagnold run STUDY.toml`: the runs of a user's own study, judged by its checks.
 
-use super::Exit;
 use super::arguments::RunArguments;
 use super::error::ProgramError;
 use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
 use super::simulation::{announce, estimate, introduce, reject_fast, simulate};
-use super::{say, terminal};
+use super::{Exit, say, terminal};
 use crate::case::{ParameterError, Registry};
 use crate::output::OutputFolder;
 use crate::report::{Baseline, CommittedValues, SingleRun};

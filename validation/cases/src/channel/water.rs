@@ -2,8 +2,7 @@
 
 use super::Channel;
 use crate::case::ParameterError;
-use crate::setup::Lattice;
-use crate::setup::rules;
+use crate::setup::{Lattice, rules};
 use bagnold_solver::incompressible::ProjectionNumerics;
 use bagnold_solver::parameter::positive;
 use schemars::JsonSchema;

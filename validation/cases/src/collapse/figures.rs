@@ -8,9 +8,8 @@ use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::metrics::{Measure, bands, laws_among};
 use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, ExperimentGrains, Material};
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
-use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
-use crate::observation::{Frame, Recorded};
+use crate::observation::{Frame, Recorded, energy};
 use crate::reference::collapse::{
     CodeQuantity, CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE, ROUND_COLUMN_RUN_OUTS,
 };

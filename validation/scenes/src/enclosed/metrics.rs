@@ -1,11 +1,9 @@
 //! Metrics of scenes: their balances, and their gauges compared with measurements.
 
 use super::flow::Dimension;
-use super::prediction;
-use super::series;
 use super::setting::SceneInlet;
 use super::sides::SceneSides;
-use super::{FedMass, Measurand, MeasuredSeries, SceneFlow, SceneObservation, SceneRecord};
+use super::{FedMass, Measurand, MeasuredSeries, SceneFlow, SceneObservation, SceneRecord, prediction, series};
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant, quantities};
 use crate::output::caution_about;
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};

@@ -2,8 +2,7 @@
 
 use super::flow::Dimension;
 use super::measure::DepthGauge;
-use super::setting::SceneWall;
-use super::setting::{SceneBody, vector};
+use super::setting::{SceneBody, SceneWall, vector};
 use super::{SceneFlow, SceneObservation};
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
 use crate::metric::{FlowRegime, PredictionInterval};

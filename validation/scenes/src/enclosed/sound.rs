@@ -1,11 +1,10 @@
 //! The speed of sound of a scene, by one rule for bodies, walls, belts, inlets, falls and pressure. A flow, its quarter turns, its mirror
 //! image and the view of it from a moving frame have one speed of sound.
 
-use super::SceneFlow;
 use super::flow::Dimension;
 use super::setting::{SceneBody, SceneInlet, SceneWall};
-use super::shapes;
 use super::sides::SceneSides;
+use super::{SceneFlow, shapes};
 use bagnold_number::four_digits;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::equation_of_state::EquationOfState;

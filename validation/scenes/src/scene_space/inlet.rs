@@ -3,8 +3,7 @@
 use super::SpaceVector;
 use super::gauge::edges;
 use crate::case::ParameterError;
-use crate::enclosed::setting;
-use crate::enclosed::{GivenRate, TableEnds};
+use crate::enclosed::{GivenRate, TableEnds, setting};
 use bagnold_solver::parameter::not_negative;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, Supply};

@@ -1,8 +1,7 @@
 //! Controls of a study: changes of its parameters that its checks must reject.
 
 use super::Study;
-use crate::case::ParameterError;
-use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier, twice_given};
+use crate::case::{CaseResult, Limits, ParameterError, PreparedCase, Registry, Tier, twice_given};
 use crate::control::{Answer, Control};
 use crate::input::{FieldError, check_name, check_text};
 use crate::metric::{Limit, Metric, Variant};

@@ -1,8 +1,7 @@
 //! A folder of studies, simulated and judged together.
 
 use super::Study;
-use crate::case::ParameterError;
-use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
+use crate::case::{CaseResult, Limits, ParameterError, PreparedCase, Registry, Tier};
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, OutputFolder};
 use std::fs::ReadDir;

@@ -1,12 +1,10 @@
 //! Files of a calibration: the page, its figures, tables and the calibrated cases.
 
-use super::figures;
-use super::held_out;
-use super::law;
 use super::plan::CalibrationPlan;
 use super::result::{
     CalibrationResult, DatumComparison, Evaluation, ParameterEstimate, relative_error, weighted_error,
 };
+use super::{figures, held_out, law};
 use crate::evidence::HeldOutJudgement;
 use crate::figure::FigureError;
 use crate::inference::UNLIKELY;

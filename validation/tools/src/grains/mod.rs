@@ -10,10 +10,9 @@ pub use fields::RunFields;
 pub use page::{summary, write};
 pub use plan::{GrainPlan, GrainRun};
 
-use crate::ToolError;
 use crate::input::FieldError;
-use crate::judge;
 use crate::number::short_digits;
+use crate::{ToolError, judge};
 use coarse::Window;
 use frame::{Grains, check_walls};
 use std::collections::HashMap;

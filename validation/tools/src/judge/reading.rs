@@ -3,8 +3,9 @@
 use super::lammps;
 use super::submission::{ForeignRun, ParticleFiles, TableFile, rising};
 use super::vtk::{self, NamedArrays, PLACES, PointArrays};
-use crate::case::ParameterError;
-use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame, RunScales};
+use crate::case::{
+    ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParameterError, ParticleFrame, RunScales,
+};
 use crate::input::{self, FieldError, TextTable, did_you_mean, name_and_unit, nearest, unit};
 use crate::measured::ColumnSource;
 use crate::output::FileError;

@@ -3,13 +3,12 @@
 use super::folder::{SweepFolder, SweepProgress};
 use super::manifest::{Manifest, SweepRun};
 use super::map::{self, MetricMap};
-use crate::ToolError;
 use crate::case::Registry;
 use crate::evaluation::{EvaluationRecord, MetricValue};
 use crate::figure::{Axis, Figure, FigureError, Mark, Panel, Series};
 use crate::metric::{Variant, Verdict};
 use crate::output::{FileError, csv_text, write_whole};
-use crate::page;
+use crate::{ToolError, page};
 use std::collections::BTreeSet;
 
 /// Metrics that are drawn for a case if the plan names none.

@@ -1,8 +1,7 @@
 //! The case's figures.
 
-use super::Record;
 use super::metrics::MARGIN;
-use super::passage;
+use super::{Record, passage};
 use crate::collapse::figures::{DrawnField, field_panel};
 use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeFlow};

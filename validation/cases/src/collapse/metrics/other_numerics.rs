@@ -1,9 +1,8 @@
 //! Columns of the sand with other numerics beside the same ones as they are: with an eddy viscosity, and without the coupling of density
 //! and pressure (27), whose pressure then oscillates.
 
-use super::bands;
 use super::quantities::*;
-use super::{Measure, RESULTS};
+use super::{Measure, RESULTS, bands};
 use crate::case::Flow;
 use crate::collapse::{Collapse, CollapseRecord};
 use crate::metric::{Confidence, Metric, Variant};

@@ -6,11 +6,10 @@ mod statements;
 
 pub(super) use kept::SteadyFlow;
 
-use super::BedLoadRecord;
 use super::fit::{HeldOut, held_out};
 use super::flow::{BedLoadFlow, BedLoadFormulation, StartState};
 use super::observation::BedLoadObservation;
-use super::profiles;
+use super::{BedLoadRecord, profiles};
 use crate::case::Flow;
 use crate::channel;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
