@@ -254,7 +254,7 @@ fn a_setting_of_a_report_changes_the_cases_that_have_its_field_and_says_so() {
         ["report", "--cases", "water-film,water-column,scene", "--set", "material.viscosity=2", "--out", "out"];
     let estimate = place.bagnold(&["run", "water-film", "--estimate"]).assert().code(0);
     let estimate = String::from_utf8_lossy(&estimate.get_output().stdout).into_owned();
-    assert!(["particles", "GiB of memory", "core hours"].iter().all(|word| estimate.contains(word)), "{estimate}");
+    assert!(["particles", "B of memory", "core hours"].iter().all(|word| estimate.contains(word)), "{estimate}");
     assert!(!place.path("store").exists());
     let refused = place.bagnold(&arguments).assert().code(2);
     let text = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();

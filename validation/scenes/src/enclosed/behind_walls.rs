@@ -11,9 +11,9 @@ const DRAW: &str = "see `bagnold show FILE.toml --picture setup.png`";
 /// A site of the lattice that a body holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Site<const D: usize> {
-    /// Its cell of the lattice along each axis.
+    /// Cell of the lattice along each axis.
     pub(super) cell: [i64; D],
-    /// Its place `[m]`.
+    /// Place `[m]`.
     pub(super) place: Vector<D>,
     /// The body that holds it, by its place among all.
     pub(super) body: usize,
@@ -101,8 +101,8 @@ impl Permissions<'_> {
 
     fn too_much(&self, body: usize, wall: usize, share: f64) -> ParameterError {
         let name = self.walls[wall].0;
-        let defect = format!("walls remove {:.1} %, mostly `{name}` (limit {:.0} %)", 100.0 * share, 100.0 * self.most);
-        let meant = (100.0 * share).ceil() / 100.0;
+        let (removed, meant) = ((1000.0 * share).round() / 10.0, (100.0 * share).ceil() / 100.0);
+        let defect = format!("{removed} % behind walls (limit {:.0} %), mostly `{name}`", 100.0 * self.most);
         let turn = if wall < self.inlets.0 { self.turn } else { self.inlets.1 };
         let remedy = if meant < 1.0 {
             format!("{turn}, shorten the body, or set `cut_at_most = {meant:.2}`")
@@ -114,7 +114,7 @@ impl Permissions<'_> {
 
     fn both_sides(&self, OnBothSides { body, wall }: OnBothSides) -> ParameterError {
         let defect = format!("material on both sides of the wall `{}`", self.walls[wall].0);
-        let remedy = format!("{}, shorten the body, or set its `both_sides = true`; {DRAW}", self.turn);
+        let remedy = format!("{}, set its `both_sides = true`, or shorten the body; {DRAW}", self.turn);
         ParameterError::field(&format!("bodies[{body}]"), defect, "", &remedy)
     }
 }
@@ -154,7 +154,7 @@ mod tests {
         let error = permissions(false, 0.05).behind(&sites).expect_err("too much").to_string();
         assert_eq!(
             error,
-            "`bodies[0]`: walls remove 50.0 %, mostly `bed` (limit 5 %); turn the wall round, shorten the body, or set `cut_at_most = 0.50`; \
+            "`bodies[0]`: 50 % behind walls (limit 5 %), mostly `bed`; turn the wall round, shorten the body, or set `cut_at_most = 0.50`; \
              see `bagnold show FILE.toml --picture setup.png`"
         );
     }

@@ -18,7 +18,7 @@ use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Preparation before the clock starts.
+/// Preparation before the run starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BodyPreparation {
@@ -44,7 +44,7 @@ const PEAKS_OF_LIQUID: usize = 12;
 const LONGEST_SWING: f64 = 10.0;
 /// Usual settling, in times that sound needs across the scene `[-]`: for estimates.
 pub(super) const USUAL: f64 = 40.0;
-/// The same as a liquid `[-]`.
+/// Usual settling as a liquid, in the same unit `[-]`.
 pub(super) const USUAL_OF_LIQUID: f64 = 4.0;
 /// Longest settling, in times that sound needs across the scene `[-]`.
 const LONGEST: f64 = 400.0;
@@ -54,7 +54,7 @@ const LONGEST: f64 = 400.0;
 pub(super) struct RestCriterion {
     /// Root mean square of the speed at a peak of the kinetic energy `[m/s]`.
     pub(super) speed: f64,
-    /// Peaks in a row that have to be as low.
+    /// Number of consecutive peaks that have to be as low.
     pub(super) peaks: usize,
     /// √(g H), by which the speed is given `[m/s]`.
     pub(super) fall: f64,
@@ -198,7 +198,7 @@ fn check_held<const D: usize>(
         return Err(refused_for(&value, "set `preparation` to \"stressed\" for grains, or remove it"));
     }
     if mean.norm() < STIRRED * scene.spacing {
-        let value = format!("{moves}, and the material keeps mixing at {speed:.1e} m/s");
+        let value = format!("particles move more than a spacing and keep mixing {}", against_rest(speed, rest));
         return Err(refused_for(&value, &raise(speed, rest)));
     }
     let is_liquid = matches!(scene.rheology, Rheology::Newtonian(_));
@@ -209,17 +209,18 @@ const SUPPORT_OF_LIQUID: &str = "close open sides, or remove `preparation`: incl
 const SUPPORT: &str = "support the bodies with walls, keep slopes below the static friction, or remove `preparation`";
 
 fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
-    let value = format!(
-        "the bodies still move at {speed:.1e} m/s after {:.2} s (limit {:.1e} m/s, `rest_speed` √(g H))",
-        LONGEST * rest.crossing,
-        rest.speed
-    );
+    let value = format!("after {:.2} s the bodies still move {}", LONGEST * rest.crossing, against_rest(speed, rest));
     refused_for(&value, &raise(speed, rest))
 }
 
-/// Remedy for bodies that keep a speed `[m/s]`.
+/// A speed `[m/s]` beside that which counts as rest.
+fn against_rest(speed: f64, rest: RestCriterion) -> String {
+    format!("at {speed:.1e} m/s (limit {:.1e} m/s, `rest_speed` √(g H))", rest.speed)
+}
+
+/// Remedy for bodies that keep a speed `[m/s]`: a `rest_speed` above it, also when rounded.
 fn raise(speed: f64, rest: RestCriterion) -> String {
-    format!("raise `rest_speed` to {:.0e}, or remove `preparation`", 1.1 * speed / rest.fall)
+    format!("raise `rest_speed` to {:.1e}, or remove `preparation`", 1.25 * speed / rest.fall)
 }
 
 fn refused_for(value: &str, remedy: &str) -> ParameterError {

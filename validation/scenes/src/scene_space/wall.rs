@@ -106,7 +106,7 @@ impl SpaceWall {
 impl setting::SceneWall<3> for SpaceWall {
     const FACETS: &'static str = "triangles";
     const GIVEN_BY: &'static str = "corners";
-    const TURN: &'static str = "reverse its corners";
+    const TURN: &'static str = "reverse the wall's corners";
 
     fn name(&self) -> &str {
         &self.name
@@ -263,17 +263,17 @@ fn faces(lower: &Vector<3>, upper: &Vector<3>) -> [[Vector<3>; 4]; 6] {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpaceSides {
-    /// At small x.
+    /// Side at the smallest x.
     pub left: DomainSide,
-    /// At large x.
+    /// Side at the largest x.
     pub right: DomainSide,
-    /// At small y.
+    /// Side at the smallest y.
     pub front: DomainSide,
-    /// At large y.
+    /// Side at the largest y.
     pub back: DomainSide,
-    /// At small z.
+    /// Side at the smallest z.
     pub bottom: DomainSide,
-    /// At large z.
+    /// Side at the largest z.
     pub top: DomainSide,
 }
 

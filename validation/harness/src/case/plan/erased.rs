@@ -115,7 +115,7 @@ pub trait PreparedCase: Send + Sync {
     fn asked(&self) -> ExternalResult {
         ExternalResult::default()
     }
-    /// Tables and figures with the headings and axes of the runs' before these are simulated; none of a case that does not tell.
+    /// Tables and figures with the headings and axes of the runs' before these are simulated; none for a case that does not tell.
     fn outline(&self) -> Option<CaseResult> {
         None
     }
@@ -123,7 +123,7 @@ pub trait PreparedCase: Send + Sync {
     fn axes(&self) -> Vec<Figure> {
         Vec::new()
     }
-    /// Boundaries and start of a run; none of a case that is not simulated by particles.
+    /// Boundaries and start of a run; none for a case that is not simulated by particles.
     fn conditions(&self, _run: usize) -> Option<Conditions> {
         None
     }

@@ -33,7 +33,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Of one run.
+    /// Estimate of one run.
     pub(in crate::case) fn of(cost: RunCost) -> Self {
         let running = cost.particles * cost.bytes_per_particle;
         Self {
@@ -46,7 +46,7 @@ impl Estimate {
         }
     }
 
-    /// Of two sets of runs together.
+    /// Sum of the estimates of two sets of runs.
     pub fn and(self, other: Self) -> Self {
         Self {
             runs: self.runs + other.runs,
@@ -59,17 +59,16 @@ impl Estimate {
         }
     }
 
-    /// Memory at its most on so many threads, of which each may hold a run `[bytes]`.
+    /// Peak memory `[bytes]` on a number of threads, each of which may hold a run.
     pub fn memory(&self, threads: usize) -> f64 {
         let at_once = threads.clamp(1, self.runs.max(1)) as f64;
         (self.running * at_once).min(self.all_running) + self.all_particles * BYTES_KEPT
     }
 
-    /// Particles, memory and time on one core in words, with so many runs at once.
+    /// Particles, memory and time on one core as text, for a number of simultaneous runs.
     pub fn in_words(&self, threads: usize) -> String {
-        let (memory, hours) = (self.memory(threads) / GIBIBYTE, self.core_seconds / 3600.0);
-        let [particles, memory, hours] = [self.all_particles, memory, hours].map(rounded);
-        format!("{particles} particles, {memory} GiB of memory, {hours} core hours")
+        let [particles, hours] = [self.all_particles, self.core_seconds / 3600.0].map(rounded);
+        format!("{particles} particles, {} of memory, {hours} core hours", size(self.memory(threads)))
     }
 
     /// Ratio of the estimate to the limits; above 1 if it exceeds them. One run at a time must fit into the memory.
@@ -88,27 +87,30 @@ impl Estimate {
         if self.excess(limits) <= 1.0 {
             return None;
         }
-        let (needed, most, option) = if self.memory(1) > limits.memory || !self.memory(1).is_finite() {
-            let (particles, memory) = (rounded(self.all_particles), rounded(self.memory(1) / GIBIBYTE));
-            let needed = format!("{memory} GiB of memory for {particles} particles");
-            (needed, format!("{} GiB", rounded(limits.memory / GIBIBYTE)), "--most-memory")
+        let (needed, most, remedy) = if self.memory(1) > limits.memory || !self.memory(1).is_finite() {
+            let needed = format!("{} of memory for {} particles", size(self.memory(1)), rounded(self.all_particles));
+            (needed, size(limits.memory), "reduce the number of particles, or raise `--most-memory`")
         } else {
             let (steps, hours) = (rounded(self.particle_steps), rounded(self.core_seconds / 3600.0));
             let needed = format!("{hours} core hours for {steps} particle-steps");
-            (needed, format!("{} core hours", rounded(limits.core_hours)), "--most-hours")
+            let most = format!("{} core hours", rounded(limits.core_hours));
+            (needed, most, "reduce the number of particles or steps, or raise `--most-hours`")
         };
-        let remedy = format!("choose a cheaper value, or raise {option}");
-        Some((format!("needs {needed}, above the limit of {most}"), remedy))
+        Some((format!("needs {needed}, above the limit of {most}"), remedy.to_owned()))
     }
 }
 
 /// Two digits are more than an estimate knows.
 fn rounded(value: f64) -> String {
-    if value.abs() >= 1e4 {
-        return format!("{value:.1e}");
-    }
-    let text = format!("{value:.1e}").parse::<f64>().unwrap_or(value);
-    format!("{text}")
+    let text = format!("{value:.1e}");
+    let is_extreme = (f64::MIN_POSITIVE..1e-3).contains(&value) || value >= 1e4;
+    if is_extreme { text } else { text.parse().unwrap_or(value).to_string() }
+}
+
+/// Memory `[bytes]` in the unit that suits its size.
+fn size(bytes: f64) -> String {
+    let step = (bytes.max(1.0).log2() / 10.0).min(3.0) as usize;
+    format!("{} {}", rounded(bytes / 1024_f64.powi(step as i32)), ["B", "KiB", "MiB", "GiB"][step])
 }
 
 /// Resource limits of the runs of a case.
@@ -141,7 +143,7 @@ fn of_environment(name: &str) -> Option<f64> {
 }
 
 impl Limits {
-    /// Whatever is asked for.
+    /// No limits.
     pub const NONE: Self = Self { memory: f64::INFINITY, core_hours: f64::INFINITY };
 
     /// Limits on memory `[GiB]` and core hours `[h]`: those given, else of the environment, else the defaults.
@@ -185,10 +187,10 @@ mod tests {
         assert_eq!(of(1e5, 3600.0).problem(&LIMITS), None);
         let (defect, remedy) = of(1e8, 1.0).problem(&LIMITS).expect("too large");
         assert_eq!(defect, "needs 340 GiB of memory for 1.0e8 particles, above the limit of 16 GiB");
-        assert!(remedy.ends_with("raise --most-memory"), "{remedy}");
+        assert!(remedy.ends_with("raise `--most-memory`"), "{remedy}");
         let (defect, remedy) = of(1.0, 1e9).problem(&LIMITS).expect("too long");
         assert_eq!(defect, "needs 2.8e5 core hours for 1.0e15 particle-steps, above the limit of 100 core hours");
-        assert!(remedy.ends_with("raise --most-hours"), "{remedy}");
+        assert!(remedy.ends_with("raise `--most-hours`"), "{remedy}");
         for cost in [f64::NAN, f64::INFINITY] {
             assert!(of(cost, 1.0).problem(&LIMITS).is_some() && of(1.0, cost).problem(&LIMITS).is_some());
             assert!(of(1.0, 1.0).and(of(cost, cost)).problem(&LIMITS).is_some());

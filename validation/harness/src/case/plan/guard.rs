@@ -148,8 +148,8 @@ mod tests {
         let message = refused(&["grain.damping=2.0", "steps=900000"], Limits { core_hours: 1e-5, ..LIMITS });
         assert_eq!(
             message,
-            "`steps`: 900000 needs 0.00017 core hours for 9.0e5 particle-steps, above the limit of 0.00001 core hours; \
-             choose a cheaper value, or raise --most-hours"
+            "`steps`: 900000 needs 1.7e-4 core hours for 9.0e5 particle-steps, above the limit of 1.0e-5 core hours; \
+             reduce the number of particles or steps, or raise `--most-hours`"
         );
         assert_eq!(refused(&["steps=900000"], LIMITS), "taken");
     }

@@ -52,7 +52,7 @@ impl<'a> Progress<'a> {
         self.monitor.advanced(self.run, simulated, total, particle_steps);
     }
 
-    /// News of the run for its user: where it resumes, or why it begins anew.
+    /// Message about the run: where it resumes, or why it starts from the beginning.
     pub fn tell(&self, news: &str) {
         self.monitor.told(self.run, news);
     }

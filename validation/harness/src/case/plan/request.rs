@@ -29,9 +29,9 @@ pub struct Requested {
     pub tier: Tier,
     /// Files with measurements that its file names.
     pub overlay: Vec<MeasuredFiles>,
-    /// States of the runs that its file wants on their way.
+    /// States that its file asks for during the runs.
     pub output: Option<OutputPlan>,
-    /// Whether anything may be other than as the case comes.
+    /// Whether anything may differ from the defaults of the case.
     pub changed: bool,
     /// Whether a file or a setting may have changed parameters.
     pub has_own_parameters: bool,
