@@ -12,7 +12,7 @@ const AT_REST: f64 = 0.01;
 /// The picture: of the case's own figure of particles the panel with the largest values, else of its finest run.
 pub(super) fn of_case(case: &CaseReport) -> Option<Figure> {
     let own = case.figures.iter().find_map(|figure| {
-        let caption = format!("The flow at one time; figure {} shows further times and places.", figure.name);
+        let caption = format!("The flow at one time; see the figure {} for further times and places.", figure.name);
         Some((fastest_panel(figure)?.clone(), caption))
     });
     let (panel, caption) = own.or_else(|| of_frames(case))?;

@@ -134,7 +134,7 @@ fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &
         let mut caption = "Time series of the scene's gauges: one panel for each gauge and quantity.".to_owned();
         if all > PANELS {
             let (first, last) = (index * PANELS + 1, index * PANELS + panels.len());
-            caption += &format!(" Panels {first} to {last} of {all}; the tables have all.");
+            caption += &format!(" Panels {first} to {last} of {all}; the tables contain all.");
         }
         Figure::new(&name, &caption, panels.to_vec()).in_columns(2)
     };

@@ -56,13 +56,13 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
         }
     }
     let colour = next(panel);
-    let mut said = String::new();
     if let CheckedQuantity::Distance(column, measured, _) = &check.read {
         let points = measured.in_units(probe::unit_of(&first.over), probe::unit_of(&column.column))?;
         let cloud = points.iter().map(|point| (point[0], point[1]));
         let series = panel.draw(&measured.legend(), Mark::Points, colour, cloud);
         series.error = points.iter().map(|point| point[2]).collect();
-        said = format!("points with their standard uncertainty: {}", measured.source());
+        let said = format!(", as simulated; points with their standard uncertainty: {}", measured.source());
+        figure.caption = figure.caption.replacen(", as simulated", &said, 1);
     } else if let CheckedQuantity::Value(_, Reduction::Slope) = &check.read {
         // a slope has no place among the column's values
     } else if let Some((value, uncertainty)) = check.reference() {
@@ -79,11 +79,13 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
             let edges = [ends.0, ends.1].map(|x| (x, value - uncertainty, value + uncertainty));
             panel.band("", edges);
         }
-        let shaded = if uncertainty.is_some() { ", shaded by its standard uncertainty" } else { "" };
-        said = format!("dashed: reference of {}{shaded}", check.name);
-    }
-    if !said.is_empty() {
-        figure.caption += &format!("; {said}");
+        let shaded = if uncertainty.is_some() { " (shaded: its standard uncertainty)" } else { "" };
+        // checks of several runs may share a name
+        let names = figure.caption.split_once("; dashed: ").map(|(_, names)| names);
+        let joint = names.map_or("; dashed: reference of ", |_| " and of ");
+        if !names.is_some_and(|names| names.split(' ').any(|name| name == check.name)) {
+            figure.caption += &format!("{joint}{}{shaded}", check.name);
+        }
     }
     Ok(())
 }
