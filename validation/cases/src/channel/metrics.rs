@@ -26,7 +26,7 @@ const SNAPSHOT_ERRORS: f64 = 2.0;
 /// Iterations that a solve may take, over those that it is known to take `[-]`.
 const MORE_ITERATIONS: f64 = 1.1;
 
-const ITERATIONS_REASON: &str = "10 % above the measured iterations; velocity started from zero would need 1.8, pressure without preconditioner 2.4 times as many";
+const ITERATIONS_REASON: &str = "10 % above the measured iterations; 1.8 times as many if velocity starts from zero, 2.4 times without pressure preconditioner";
 
 impl ChannelObservation {
     /// Mean of a series over the window, with its statistical error; not a number where the run did not get there.

@@ -79,7 +79,7 @@ fn heights(run: &WaterColumnFlow, data: &ColumnObservation, delay: f64) -> Vec<M
             )
             .with_snapshot_tolerance(0.1, 0.1)
     };
-    let reason = "2.5 %: one of 40 particle rows over the height; times as measured, nothing fitted";
+    let reason = "2.5 %: one of 40 particle rows over the height; measured times, nothing fitted";
     let mut metrics = vec![metric(HEIGHT_ERROR, 0.0).gated_by(is_free.then_some(Limit::AtMost(ROW)), reason)];
     if is_free {
         metrics.push(metric(DELAYED_HEIGHT_ERROR, delay));

@@ -90,15 +90,15 @@ const STEPS: f64 = 4.0;
 /// height leave 0.9 to 1.6.
 const STEPS_OF_IMPACT: f64 = 2.0;
 
-const OPEN_REASON: &str = "0.5 %: half of the residual that an error of 1 % in the largest work would leave";
+const OPEN_REASON: &str = "0.5 %: half of the residual that an error of 1 % in the largest work would cause";
 
 /// Largest rise of the energy `[%]` with its reason: of an evenly sheared layer, and of all others.
 const RISE_STEADY: (f64, &str) = (0.002, "0.002 %: without sound waves only rounding can raise the energy");
 const RISE: (f64, &str) =
-    (0.1, "0.1 %: sound waves make the energy oscillate; the largest rise measured, 0.025 %, belongs to a collapse");
+    (0.1, "0.1 %: sound waves make the energy oscillate; the largest measured rise is 0.025 %, in a collapse");
 
 const OPEN_REASON_OVER_TIME: &str =
-    "0.5 % of the largest work, plus time-step errors expected in motion, in impacts and at the end";
+    "0.5 % of the largest work, plus expected time-step errors: of motion, of impacts, of the run's last step";
 
 /// The residual over a scale.
 pub fn residual(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Metric {

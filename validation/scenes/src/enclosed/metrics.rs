@@ -102,7 +102,7 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                 .exactly(0.0, "an exact solution has no residual")
                 .gated(
                     Limit::AtMost(MOST_UNSOLVED),
-                    "0.5 % of gravity's impulse may stay unsolved by viscous steps; a smaller `viscous_tolerance` reduces it",
+                    "0.5 % of gravity's impulse: what viscous steps may leave unsolved; a smaller `viscous_tolerance` reduces it",
                 )
                 .with_snapshot_tolerance(1.0, 1e-3),
         );
@@ -192,14 +192,14 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
 /// The balances of a run in which something can be missing; `has_mirror` tells of planes of symmetry, which are no walls.
 fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_mirror: bool) -> Vec<Metric> {
     let mass = data.whole_mass();
-    let closed = "2e-5 %: single-precision rounding expected in long runs; thousands of steps leave 1e-7 % (measured)";
+    let closed = "2e-5 %: single-precision rounding expected in long runs; 1e-7 % measured after thousands of steps";
     let mut metrics = vec![
         MASS_RESIDUAL
             .of(variant, 100.0 * data.missing_mass / mass)
             .exactly(0.0, "no particle is lost: each is inside, or has left through an open side")
             .gated(
                 Limit::AtMost(1e-10),
-                "1e-10 %: rounding expected in sums over millions of particles; thousands leave 1e-12 % (measured)",
+                "1e-10 %: rounding expected in sums over millions of particles; 1e-12 % was measured with thousands",
             )
             .with_snapshot_tolerance(1.0, 1e-9),
         MOMENTUM_RESIDUAL

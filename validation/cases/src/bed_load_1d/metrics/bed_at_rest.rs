@@ -43,7 +43,7 @@ pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, rest: &LayerState
             None,
             "near the bed slower than without moving grains",
             Limit::AtMost(-0.1),
-            "−0.1 u_* (friction velocity): so much slower that equal velocities fail",
+            "−0.1 u_* (friction velocity): slower by enough that equal velocities fail",
         ),
         (
             ABOVE,

@@ -51,14 +51,14 @@ fn profile_metrics((run, record): &BedLoad1dRecord, of: MeasuredBedLoad) -> Vec<
         let scatter = neighbour_scatter(points).map(|scatter| (scale * scatter, SCATTER));
         (!points.is_empty()).then_some((quantity, value, scatter, limit, reason))
     };
-    let fraction = "0.1: a sixth of the packed solid fraction, chosen as the source states no uncertainty";
+    let fraction = "0.1: a sixth of the packed solid fraction, chosen because the source states no uncertainty";
     let velocity = "20 % of the largest published velocity: chosen, as the source states no uncertainty";
     let (grains, water) = (&theirs.grain_velocity, &theirs.fluid_velocity);
     let of_stress = (!stresses.is_empty()).then(|| {
         let value = 100.0 * difference(&state.face, &state.fluid_stress, &stresses) / bed;
         let scatter = 100.0 * theirs.stress_scatter * density / bed;
         let scatter = (scatter, "scatter of the points about the line through their neighbours");
-        let reason = "20 % of the bed shear stress: the share chosen for velocities too";
+        let reason = "20 % of the bed shear stress: the same share as chosen for velocities";
         (TURBULENT_STRESS_DIFFERENCE, value, Some(scatter), STRESS_LIMIT, reason)
     });
     let metric = |(quantity, value, scatter, limit, reason): (Quantity, f64, Option<(f64, &str)>, f64, &str)| {

@@ -133,7 +133,7 @@ fn one_state(variant: &Variant, difference: f64, source: &str) -> Metric {
         .exactly(0.0, source)
         .gated(
             Limit::AtMost(ONE_STATE),
-            "1e-6: two starts must reach one steady state; incomplete steadiness leaves 8e-8 (measured)",
+            "1e-6: two starts must reach one steady state; they still differed by 8e-8 (measured)",
         )
         .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE)
 }
@@ -194,7 +194,7 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, state: &LayerState) 
                 .exactly(0.0, identity)
                 .gated(
                     Limit::AtMost(largest),
-                    "limit near 0, the value of an exactly steady state; a smaller `steady_change` reduces the rest",
+                    "limit near 0, the value of an exactly steady state; a smaller `steady_change` reduces the imbalance",
                 )
                 .with_snapshot_tolerance(1.0, 0.1 * largest),
         );

@@ -65,7 +65,7 @@ fn blow_up((run, record): &StillWaterRecord) -> Metric {
     BLOW_UP_TIME
         .of(&run.variant(), time)
         .against(None, "a particle above 1.2 h or a divergence; the stabilised run has neither", Confidence::Exact)
-        .gated(Limit::AtMost(limit), "half of the run, by which this control without stabilisation must diverge")
+        .gated(Limit::AtMost(limit), "half of the run: this control, without stabilisation, must diverge by then")
         // what sprays is chaotic
         .with_snapshot_tolerance(0.0, 0.5 * limit)
 }

@@ -135,7 +135,7 @@ fn of_fields(time: f64, run: &SlopeFlow, record: &Recorded<SlopeCollapse>) -> Op
         let rises = "the viscosity grows with the distance from the free surface, mainly through the pressure";
         stated(VISCOSITY_AND_DEPTH, correlation, rises).gated_by(
             gate(Limit::AtLeast(0.5)),
-            "0.5: midway between no correlation (0) and viscosity rising all the way down (1)",
+            "0.5: midway between no correlation (0) and a viscosity that always rises with depth (1)",
         )
     }));
     let correlations = inside.viscosity_and_pressure.zip(inside.viscosity_and_shear_rate);

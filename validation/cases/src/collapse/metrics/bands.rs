@@ -43,10 +43,10 @@ pub(crate) fn laws_of<const D: usize>(run: &ColumnFlow<D>) -> (&'static Collapse
     (author.law(&laws.run_out), author.law(&laws.height))
 }
 
-/// Between which values a result must lie, and why there.
+/// Limits of a result, with their reason.
 pub(crate) type AcceptanceBand = Option<((f64, f64), &'static str)>;
 
-/// Band of the run-out of published grains; none of a coarse column whose seeds are judged together.
+/// Band of the run-out of published grains; none for a coarse column whose seeds are judged together.
 pub(crate) fn run_out<const D: usize>(run: &ColumnFlow<D>, has_seeds: bool) -> AcceptanceBand {
     let (law, a) = (laws_of(run).0, run.initial_height());
     if !run.has_published_law() {
@@ -55,7 +55,7 @@ pub(crate) fn run_out<const D: usize>(run: &ColumnFlow<D>, has_seeds: bool) -> A
     match (D, run.made_of()) {
         (3, Material::SAND) if run.is_resolved() => Some((
             around(law.value(a)?, WIDEST),
-            "15 % about Lube's law: the most allowed to any column, as no scatter is published",
+            "15 % from Lube's law: the widest limit of all columns, as no scatter is published",
         )),
         (2, Material::SAND) if run.resolution >= 20 => Some((
             around(law.value(a)?, apart(&PLANAR_COLLAPSE.run_out, a, run.spacing() / run.half_width)?),
@@ -69,13 +69,13 @@ pub(crate) fn run_out<const D: usize>(run: &ColumnFlow<D>, has_seeds: bool) -> A
     }
 }
 
-/// Where the height of published grains must lie.
+/// Limits of the height of published grains.
 pub(crate) fn height<const D: usize>(run: &ColumnFlow<D>) -> AcceptanceBand {
     let (law, a) = (laws_of(run).1, run.initial_height());
     let expected = law.value(a).filter(|_| run.has_published_law())?;
     let is_round = D == 3;
     let (tolerance, reason) = match (run.made_of(), a) {
-        (Material::SAND, ..=0.7) if !is_round => (0.03, "3 % of the initial height, kept up to aspect ratio 0.7"),
+        (Material::SAND, ..=0.7) if !is_round => (0.03, "3 %: up to aspect ratio 0.7 the height is unchanged"),
         (Material::SAND, _) if !is_round => (
             apart(&PLANAR_COLLAPSE.height, a, run.spacing() / run.half_width)?,
             "limits lie as far from Lube's law as Lajeunesse's does, from one spacing to 15 %",

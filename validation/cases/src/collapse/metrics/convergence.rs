@@ -48,7 +48,7 @@ impl<'a, const D: usize> ConvergenceStudy<'a, D> {
         variant.and("material", self.material.to_string()).and("aspect_ratio", self.aspect_ratio)
     }
 
-    /// Its runs of a kind, resolution by resolution.
+    /// Runs of a kind, resolution by resolution.
     fn by_resolution(
         &self,
         is_of_kind: impl Fn(&ColumnFlow<D>) -> bool,
@@ -73,7 +73,7 @@ impl<'a, const D: usize> ConvergenceStudy<'a, D> {
         self.ensembles().into_iter().filter_map(of).collect()
     }
 
-    /// Its runs of ensembles: one that stands for itself is one of them.
+    /// Runs of ensembles: one that stands for itself is one of them.
     fn ensembles(&self) -> BTreeMap<usize, Vec<&'a CollapseRecord<D>>> {
         self.by_resolution(|run| run.is_of_ensemble() || run.stands_for_itself(self.records))
     }

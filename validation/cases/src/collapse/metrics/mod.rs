@@ -159,7 +159,7 @@ pub(crate) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, lo
         .of(variant, collapse.rest_time())
         .against(None, "grains with a yield stress come to rest", Confidence::Exact)
         .with_snapshot_tolerance(0.02, 0.0)
-        .gated_by(limit, "limits: the front's stop, at 99 % of its way, and the run's end")
+        .gated_by(limit, "limits: between the front's stop (at 99 % of its way) and the run's end")
 }
 
 /// Where the true value of a user's own grains lies, by how far those of published ones were off.
@@ -235,7 +235,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
                 .exactly(steepest, "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front")
                 .gated(
                     flattest(run).map_or(Limit::AtMost(steepest), |flattest| Limit::Within(flattest, steepest)),
-                    "limits: at most the friction angle; planar sand, at least 15 % below Lajeunesse's slope",
+                    "limits: at most the friction angle; for planar sand at least Lajeunesse's slope less 15 %",
                 )
         } else {
             slope

@@ -37,7 +37,7 @@ pub(crate) struct Beside<'a> {
 }
 
 impl<'a> Beside<'a> {
-    /// A column of Lagrée's grains and of the tables' width; none of others.
+    /// A column of Lagrée's grains with the width of the tables; none for other columns.
     pub(crate) fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &'a Collapse) -> Option<Self> {
         let codes = if D == 2 { &*PLANAR_CODES } else { &*ROUND_CODES };
         let energy_scale = *collapse.potential_energy.first()?;
@@ -51,7 +51,7 @@ impl<'a> Beside<'a> {
         })
     }
 
-    /// Glass beads behind gate and in the reservoir of the table; none of others.
+    /// Glass beads behind gate and in the reservoir of the table; none for others.
     pub(crate) fn of_slope(run: &SlopeFlow, collapse: &'a Collapse) -> Option<Self> {
         let SlopeFlow { gate_speed, initial_height, reservoir_length, gravity, .. } = *run;
         let is_of_them =
@@ -93,7 +93,7 @@ impl<'a> Beside<'a> {
         energy.into_iter().chain(front).collect()
     }
 
-    /// A run-out of the deposit beside that of the codes; as it is where none tells it.
+    /// Run-out of the deposit beside that of the codes; unchanged where no code gives it.
     pub(crate) fn deposit(&self, metric: Metric, of_codes: CodeQuantity) -> Metric {
         let Some((mean, uncertainty)) = self.codes.at(self.flow, of_codes, AT_REST) else { return metric };
         let (share, reason) = match of_codes {

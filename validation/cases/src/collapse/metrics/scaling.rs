@@ -130,7 +130,7 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
                 ),
                 observed(SCALING_CONFIDENCE, scaling.half_width).against(None, interval, Confidence::Exact).gated_by(
                     gate.map(|_| Limit::AtMost(WIDEST)),
-                    "0.075: half the widest range of published exponents, 0.15 for heights",
+                    "0.075: half of 0.15, the widest range of published exponents (that of heights)",
                 ),
             ]);
             if quantity == RUN_OUT.name
@@ -148,7 +148,7 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
                     .of(&variant.and("aspect_ratio", ratios), law.value)
                     .against(None, &lube.source, lube.confidence)
                     .known_to(Origin::Numerical, Some(law.standard_error), "scatter about the fit")
-                    .gated_by(gate, "10 % about 1: run-outs of low columns are proportional to the aspect ratio")
+                    .gated_by(gate, "1 ± 10 %: run-outs of low columns are proportional to the aspect ratio")
                     .with_snapshot_tolerance(1e-2, 5e-3),
             );
         }

@@ -168,7 +168,7 @@ fn other_grains(whole: &Record) -> Vec<Metric> {
         relative_height(run, &record.data),
     ];
     if run.start == LayerStart::Rest {
-        let reason = "3 %: the project's aim for steep layers; too little stress diffusion would leave 20 %";
+        let reason = "3 %: the project's aim for steep layers; too little stress diffusion would cause 20 %";
         metrics.extend(transient(whole, (3.0, 3.0), reason));
     }
     metrics

@@ -147,7 +147,7 @@ fn profile(record: &Record) -> Vec<Metric> {
             Some((2.0, "2 % with 20 particle rows: twice the limit of 40 rows, since errors are first-order"))
         }
         (SteadyFilm::Eddies(_), 20..) => {
-            Some((3.0, "3 % with 20 rows: half more than Newtonian films, as stress is quadratic in shear rate"))
+            Some((3.0, "3 % with 20 rows: 1.5 times the Newtonian limit, as stress is quadratic in shear rate"))
         }
         // what a law of one's own may be off by is for its author to say
         (SteadyFilm::Integrated(_), _) => None,

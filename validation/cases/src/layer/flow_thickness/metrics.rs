@@ -46,7 +46,7 @@ fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
     let (limit, reason) = if nonlocal.is_some() {
         (0.5 * flow.stopping_tolerance, "limit is half the gap between slopes where the layer stops and where it flows")
     } else {
-        (flow.stopping_tolerance, "limit is the bracket's width: half for the angle's place, half for the solver")
+        (flow.stopping_tolerance, "limit is the slope bracket's width: half for the angle in it, half for the solver")
     };
     // which condition holds at a free surface experiments say, not the model: they favour that under which the fluidity vanishes
     let judged = flow.surface_name().is_none_or(|surface| surface == "vanishing");

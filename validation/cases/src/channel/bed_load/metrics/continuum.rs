@@ -98,7 +98,7 @@ pub(super) fn beside_layer(
     }
     let (within, reason) = match dilating {
         true if run.spacing() < FINE => (0.08, "8 %: about half of the 15 % allowed with a 1 mm spacing"),
-        true => (0.15, "15 %: expected error of moving layers few spacings thick, one or two at 2 % slope"),
+        true => (0.15, "15 %: expected error of moving layers that are few spacings thick (one or two at 2 % slope)"),
         false => (0.1, "10 %: the grains' profile may be shifted by a third of a 1 mm spacing"),
     };
     metrics.push(

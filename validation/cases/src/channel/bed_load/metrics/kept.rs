@@ -49,7 +49,7 @@ pub(in super::super) struct SteadyFlow {
 }
 
 impl SteadyFlow {
-    /// None of a run that is not the faster one of a pair.
+    /// Gives nothing for a run that is not the faster one of a pair.
     pub(in super::super) fn of(records: &[BedLoadRecord], (run, fast): &BedLoadRecord) -> Option<Self> {
         let is_slower = |other: &BedLoadFlow| run.has_another_start_than(other) && other.start() < run.start();
         let (slow_run, slow) = records.iter().find(|(other, _)| run.is_kept() && is_slower(other))?;
@@ -74,7 +74,7 @@ pub(super) fn of_pair(records: &[BedLoadRecord], record: &BedLoadRecord) -> Vec<
             .of(&variant, start)
             .exactly(1.0, "the kept state is steady")
             .with_snapshot_tolerance(0.0, 2e-3)
-            .gated(Limit::Within(0.98, 1.02), "2 %: kept state and runs may each err by 0.1 u_*, 1 % of their mean"),
+            .gated(Limit::Within(0.98, 1.02), "2 %: kept state and runs may each err by 0.1 u_*, 1 % of mean velocity"),
     ];
     metrics.extend(beside_layer(run, &data, &variant, (true, true)));
     let rest = records.iter().find(|(other, _)| other.rests() && other.slope == run.slope).map(|(_, rest)| &rest.data);

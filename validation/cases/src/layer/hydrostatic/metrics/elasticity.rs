@@ -13,7 +13,7 @@ const SHEAR_MODULUS: f64 = 1e5;
 /// Steps of an eighth of a turn.
 const STEPS: u32 = 1000;
 
-/// Both of the grains' law; none of a law that carries no stress along.
+/// Both metrics of the grains' law; none for a law that carries no stress along.
 pub(super) fn all(law: &Rheology) -> Vec<Metric> {
     if !law.is_plastic() {
         return Vec::new();
@@ -25,7 +25,7 @@ pub(super) fn all(law: &Rheology) -> Vec<Metric> {
             .exactly(0.0, "τ = G γ in simple shear below the yield")
             .gated(
                 Limit::Within(-1e-6, 1e-6),
-                "1e-6 %: one small step of Hooke's law is exact to rounding and 1e-8 % (strain squared)",
+                "1e-6 %: one small step of Hooke's law is exact but for rounding and 1e-8 % (strain squared)",
             )
             .with_snapshot_tolerance(0.0, 1e-6),
         STRESS_ROTATION_ERROR

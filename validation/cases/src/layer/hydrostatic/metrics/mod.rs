@@ -92,7 +92,7 @@ fn at_rest((run, record): &HydrostaticRecord) -> Vec<Metric> {
         HEIGHT_DRIFT
             .of(&variant, 100.0 * (around(2.0) / around(1.0) - 1.0))
             .exactly(0.0, "a layer at rest keeps its height")
-            .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height: layers at rest keep it from 1 s to 2 s")
+            .gated(Limit::Within(-0.1, 0.1), "0.1 %: layers at rest keep their mean height from 1 s to 2 s")
             .with_snapshot_tolerance(0.1, 1e-4),
         RMS_SPEED.of(&variant, speed).exactly(0.0, "rest").with_snapshot_tolerance(0.5, 1e-5),
     ]);
