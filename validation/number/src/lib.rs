@@ -31,12 +31,10 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     in_unit(&four_digits(value), unit)
 }
 
-/// Digits with their unit; the unit `-` is not written.
+/// Digits with their unit; the unit `-`, and that of a missing value, are not written.
 pub fn in_unit(digits: &str, unit: &str) -> String {
-    match unit {
-        "" | "-" => digits.to_owned(),
-        _ => format!("{digits}\u{202f}{unit}"),
-    }
+    let is_bare = matches!(unit, "" | "-") || digits == "no value";
+    if is_bare { digits.to_owned() } else { format!("{digits}\u{202f}{unit}") }
 }
 
 /// A count in groups of three digits.
@@ -96,7 +94,7 @@ fn significant(value: f64, digits: usize, style: &Style) -> String {
     if !value.is_finite() {
         return match value {
             _ if !style.typeset => value.to_string(),
-            value if value.is_nan() => "not a number".to_owned(),
+            value if value.is_nan() => "no value".to_owned(),
             value if value > 0.0 => "∞".to_owned(),
             _ => "−∞".to_owned(),
         };
@@ -163,7 +161,7 @@ mod tests {
             (1_234_567.0, "1.235×10⁶"),
             (1e-4, "1×10⁻⁴"),
             (2e9, "2×10⁹"),
-            (f64::NAN, "not a number"),
+            (f64::NAN, "no value"),
             (f64::NEG_INFINITY, "−∞"),
         ] {
             assert_eq!(four_digits(value), text, "{value:e}");
@@ -186,7 +184,7 @@ mod tests {
             (-3.0, 3.0, ("−3", "3")),
             (0.0, 1e-12, ("0", "1×10⁻¹²")),
             (0.123_456_7, 0.123_456_7, ("0.1235", "0.1235")),
-            (f64::NAN, 1.0, ("not a number", "1")),
+            (f64::NAN, 1.0, ("no value", "1")),
             (f64::INFINITY, f64::INFINITY, ("∞", "∞")),
         ] {
             assert_eq!(distinct_digits(value, other), (texts.0.to_owned(), texts.1.to_owned()), "{value:e}, {other:e}");

@@ -34,7 +34,7 @@ pub enum ModelError {
 }
 
 impl ModelError {
-    /// Its size; 0 where nothing is known.
+    /// Size; 0 where nothing is known.
     pub fn size(self) -> f64 {
         match self {
             Self::Within(size) | Self::AtLeast(size) | Self::BeyondKnown(size) => size,
@@ -44,7 +44,7 @@ impl ModelError {
 }
 
 impl<'r> Comparison<'r> {
-    /// The comparison that a metric is; none of a metric that is not compared with a number from outside.
+    /// The comparison that a metric is; none for a metric that is not compared with a number from outside.
     fn of(case: &'r str, metric: &'r Metric) -> Option<Self> {
         let error = metric.value - metric.compared_with()?;
         error.is_finite().then_some(Self { case, metric, error })

@@ -28,7 +28,7 @@ pub enum Grade {
 }
 
 impl Grade {
-    /// All, the strongest first.
+    /// All entries, the strongest first.
     pub const ALL: [Self; 6] =
         [Self::Measured, Self::Converging, Self::Exact, Self::Statement, Self::Balance, Self::Baseline];
 
@@ -44,7 +44,7 @@ impl Grade {
         }
     }
 
-    /// The grade that a gate of this metric gives; none of a metric without one.
+    /// The grade that a gate of this metric gives; none for a metric without one.
     fn of(metric: &Metric) -> Option<Self> {
         if metric.verdict() == Verdict::Observed {
             return None;

@@ -30,7 +30,7 @@ pub enum ReportError {
     Template(#[from] minijinja::Error),
 }
 
-/// The text of a committed file of at most so many bytes; none where there is no file.
+/// Text of a committed file of at most a number of bytes; none where there is no file.
 pub(super) fn read_if_there(path: &Path, most: u64) -> Result<Option<String>, ParameterError> {
     match read_text(path, most) {
         Ok(text) => Ok(Some(text)),
@@ -39,7 +39,7 @@ pub(super) fn read_if_there(path: &Path, most: u64) -> Result<Option<String>, Pa
     }
 }
 
-/// A committed file that is not what it should be.
+/// A committed file with wrong content.
 pub(super) fn damaged(path: &Path, reason: String) -> ParameterError {
     let remedy = "correct the file, or restore it from version control".to_owned();
     FileError::Damaged { file: path.to_owned(), reason, remedy }.into()

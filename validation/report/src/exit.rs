@@ -17,7 +17,7 @@ pub enum Exit {
 }
 
 impl Exit {
-    /// Exit code of runs whose gates do not count.
+    /// Exit code of runs whose gates are ignored.
     pub fn of_runs(results: &[CaseResult]) -> Self {
         let has_diverged = results.iter().any(|result| result.unexpected_divergences().next().is_some());
         if has_diverged { Self::Diverged } else { Self::Held }

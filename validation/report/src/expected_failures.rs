@@ -47,7 +47,7 @@ pub enum FailureKind {
 }
 
 impl FailureKind {
-    /// It in words.
+    /// Text for a reader.
     pub fn words(self) -> &'static str {
         match self {
             Self::Defect => "defect",

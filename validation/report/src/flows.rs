@@ -209,7 +209,7 @@ fn decimals(value: f64) -> String {
     if value.abs() < 0.1 { two_digits(value) } else { format!("{value:.2}").replace('-', "−") }
 }
 
-/// The least and the greatest of some values; none of none.
+/// Least and greatest of some values; none without values.
 fn span(values: impl Iterator<Item = f64>, digits: fn(f64) -> String) -> Option<String> {
     let (least, most) = values.map(|value| (value, value)).reduce(|all, own| (all.0.min(own.0), all.1.max(own.1)))?;
     let [least, most] = [least, most].map(digits);
@@ -221,7 +221,7 @@ const STATEMENTS: [(VerdictMark, &str); 4] = [
     (VerdictMark::PASS, "{number} of {all} comparisons with published results agree within their uncertainty, {share}"),
     (VerdictMark::EXPECTED, "{number} differ by more than their uncertainty; the least model errors are {share}"),
     (VerdictMark::INCONCLUSIVE, "{number} are undecided, because part of the uncertainty is unknown"),
-    (VerdictMark::OBSERVED, "{number} have no known uncertainty"),
+    (VerdictMark::OBSERVED, "without known uncertainty: {number}"),
 ];
 
 /// Verdict on the model by comparisons with published results, and the number of gates that pass.

@@ -29,7 +29,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// All, the one that weighs most first.
+    /// All entries, the one of the largest weight first.
     pub const ALL: [Self; 6] = [
         Self::NewFailure,
         Self::NotJudged,
@@ -39,7 +39,7 @@ impl Severity {
         Self::Pass,
     ];
 
-    /// Its word on pages, in files and on the terminal.
+    /// Word on pages, in files and on the terminal.
     pub const fn word(self) -> &'static str {
         match self {
             Self::NewFailure => "new failure",
@@ -99,9 +99,9 @@ pub struct JudgedMetric<'r> {
     pub metric: &'r Metric,
     /// Severity of its gate; none without one that judges.
     pub severity: Option<Severity>,
-    /// Against the list of expected failures.
+    /// Status in the list of expected failures.
     pub listed: ListStatus,
-    /// Against the baseline.
+    /// Change against the baseline.
     pub change: Change,
     /// Reason for which it is inconclusive, where it is within its limit.
     pub doubt: Option<Doubt>,
@@ -114,7 +114,7 @@ impl<'r> JudgedMetric<'r> {
         Self { metric, severity: Severity::of(metric, &listed, doubt), listed, change, doubt }
     }
 
-    /// Its rank on a page.
+    /// Rank on a page.
     pub fn rank(&self) -> Rank {
         match self.severity {
             Some(severity) if severity <= Severity::ExpectedFailure => Rank::Failing(severity),
@@ -182,7 +182,7 @@ impl<'r> JudgedCase<'r> {
         Self { case, metrics, vanished, diverged: diverged.collect() }
     }
 
-    /// Its rank on a page; an empty case is observed.
+    /// Rank on a page; an empty case is observed.
     pub fn rank(&self) -> Rank {
         let worst = self.metrics.iter().map(JudgedMetric::rank).min().unwrap_or(Rank::Observed);
         if !self.diverged.is_empty() || !self.case.not_judged.is_empty() {
@@ -206,12 +206,12 @@ impl<'r> JudgedCase<'r> {
 pub struct Tally(pub Vec<Severity>);
 
 impl Tally {
-    /// Number of all.
+    /// Total number.
     pub fn all(&self) -> usize {
         self.0.len()
     }
 
-    /// Number of those of a severity.
+    /// Number of entries of a severity.
     pub fn of(&self, severity: Severity) -> usize {
         self.0.iter().filter(|own| **own == severity).count()
     }
@@ -233,7 +233,7 @@ impl Tally {
     }
 }
 
-/// A number of things.
+/// A count.
 pub(super) fn plural(number: usize, word: &str) -> String {
     if number == 1 { format!("1 {word}") } else { format!("{number} {word}s") }
 }

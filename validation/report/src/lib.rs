@@ -99,7 +99,7 @@ pub struct Report {
     pub against: Option<String>,
     /// The gates that are expected to fail; may be empty.
     pub expected_failures: ExpectedFailures,
-    /// Those of them that no study measures, at any tier.
+    /// Expected failures that no study measures, at any tier.
     pub listed_in_vain: Vec<MetricKey>,
     /// Papers whose elements the report lists; empty for no page of papers.
     pub papers: &'static [Paper],
@@ -175,7 +175,7 @@ impl CaseReport {
         Self { result, quantities, not_judged: Vec::new(), controls: Vec::new(), measured: Vec::new() }
     }
 
-    /// Its metric of a key.
+    /// Metric of a key.
     fn metric(&self, key: &MetricKey) -> Option<&Metric> {
         self.metrics.iter().find(|metric| MetricKey::of(&self.name, metric) == *key)
     }

@@ -5,7 +5,7 @@ use super::*;
 use crate::metric::{Confidence, Metric, MetricKind, Origin, Variant};
 use crate::store::Drawings;
 
-/// Every link and picture of every page in a folder leads to a file, and to a place in it that is there; how many there are.
+/// Checks that every link and picture of every page in a folder has an existing target; returns their number.
 pub(super) fn links(folder: &Path) -> usize {
     let mut number = 0;
     let mut folders = vec![folder.to_owned()];

@@ -24,11 +24,11 @@ pub enum Status {
 }
 
 impl Status {
-    /// All, in the order of the page.
+    /// All entries, in the order of the page.
     pub const ALL: [Self; 5] =
         [Self::Reproduced, Self::NotShown, Self::NotReproduced, Self::Contradicted, Self::NotCovered];
 
-    /// Its name.
+    /// Name.
     pub fn word(self) -> &'static str {
         match self {
             Self::Contradicted => "contradicted",
@@ -207,7 +207,7 @@ impl<'r> ElementOutcome<'r> {
 pub struct PaperSummary<'r> {
     /// The paper.
     pub paper: &'r Paper,
-    /// Its elements in order.
+    /// Elements in order.
     pub elements: Vec<ElementOutcome<'r>>,
 }
 

@@ -48,9 +48,9 @@ fn element(paper: &str, fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Valu
     let element = fate.element;
     let is_missing = |name: &&MetricName| !fate.shown.iter().any(|shown| std::ptr::eq(shown.name, *name));
     let missing = element.metrics.iter().filter(is_missing);
-    let missing = missing.map(|name| format!("{} {} [{}]", name.case, name.metric, name.variant));
+    let missing = missing.map(|name| format!("{} {} {}", name.case, name.metric, name.variant));
     let is_gone = |name: &&RunName| !fate.ended.iter().any(|ended| std::ptr::eq(ended.name, *name));
-    let gone = element.runs.iter().filter(is_gone).map(|name| format!("{} [{}]", name.case, name.variant));
+    let gone = element.runs.iter().filter(is_gone).map(|name| format!("{} {}", name.case, name.variant));
     json!({
         "anchor": format!("{paper}-{}", element.id),
         "id": element.id,

@@ -33,7 +33,7 @@ impl Doubt {
         (!is_shown).then_some(Self::NoControl)
     }
 
-    /// In a few words.
+    /// Short text.
     pub(super) fn words(self) -> &'static str {
         match self {
             Self::NoControl => "no negative control makes this gate fail",

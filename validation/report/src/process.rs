@@ -46,11 +46,11 @@ pub struct ReportRequest {
     pub deny_moved: bool,
     /// File for the verdicts as JUnit's XML.
     pub junit: Option<PathBuf>,
-    /// Folder to write.
+    /// Output folder.
     pub folder: PathBuf,
     /// Rows of the verdicts that are shown, and their width.
     pub terminal: Terminal,
-    /// The command that makes it again.
+    /// Command that makes it again.
     pub command: String,
     /// Every option, where a report that was made by the same from the same need not be made again.
     pub options: Option<String>,

@@ -163,7 +163,7 @@ fn residual(difference: f64, expected: f64) -> String {
 }
 
 fn change(judged: &JudgedMetric<'_>) -> (VerdictMark, String, String) {
-    let signed = |change: f64| if change.is_nan() { "not a number".to_owned() } else { signed(change) };
+    let signed = |change: f64| if change.is_nan() { "no value".to_owned() } else { signed(change) };
     let relative = |change: f64, baseline: f64| {
         let share = 100.0 * change / baseline.abs();
         if share.is_finite() && change != 0.0 { format!("{} %", signed(share)) } else { String::new() }

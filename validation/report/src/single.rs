@@ -15,7 +15,7 @@ use std::time::Instant;
 /// What a case or study is judged by.
 #[derive(Debug)]
 pub struct SingleRun {
-    /// When the simulation began.
+    /// Time at which the simulation began.
     pub started: Instant,
     /// The values to compare with.
     pub baseline: Baseline,

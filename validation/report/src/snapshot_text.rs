@@ -33,7 +33,7 @@ pub(super) struct BaselineValue {
     pub(super) value: f64,
     pub(super) unit: String,
     pub(super) verdict: Verdict,
-    /// Its line in the file: metrics keep the order in which their case reports them.
+    /// Line in the file: metrics keep the order in which their case reports them.
     pub(super) line: usize,
 }
 

@@ -20,7 +20,7 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// Everything in lines of any length.
+    /// Lines of any length for all values.
     pub const ALL: Self = Self { width: usize::MAX, is_verbose: true };
 }
 

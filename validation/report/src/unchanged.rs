@@ -14,7 +14,7 @@ const FILE: &str = "made-from.json";
 struct Made {
     /// Digest of what went in.
     inputs: String,
-    /// Its files, with digests of their contents.
+    /// Files, with digests of their contents.
     files: Vec<(PathBuf, String)>,
     exit: u8,
     text: String,
