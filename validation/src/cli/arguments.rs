@@ -50,18 +50,18 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run tilted.toml --from STATE         start from the state of another run, such as a prepared bed
 
 A longer run of a scene, a collapse or a channel continues a finished one, or prints why it starts from the beginning.
-A case file names its case with `case = \"film\"`; fields left out have the defaults of the tier. `bagnold show film`
-prints a complete file. Values of --set are TOML; a dot separates a table from its field.
+A case file names its case with `case = \"film\"`; fields that it leaves out have the defaults of the tier.
+`bagnold show film` prints a complete file. Values of --set are TOML; a dot separates a table from its field.
 
-Columns of an --overlay file are named like the axes of a figure, with units; repeats replace uncertainties. `# limit:` is the
-largest root mean square residual, needed for a verdict. `# figure:`, `# panel:` and `# curve:` select one of several:
+Columns of an --overlay file have the names and units of a figure's axes; columns of repeats replace an uncertainty.
+`# limit:`, needed for a verdict, is the largest rms residual. `# figure:`, `# panel:` and `# curve:` select one of several:
 
   # source: own flume, May
   # limit: 2
   y/h [-],u [cm/s],uncertainty [cm/s]
   0.3,8.6,0.3
 
-A study is a file with `study = \"NAME\"`. It names a base and the checks of its results:
+A study is a file with `study = \"NAME\"`. It names a base case and the checks of its results:
 
   study = \"my-flume\"
   summary = \"glass beads in my flume\"
@@ -74,10 +74,10 @@ A study is a file with `study = \"NAME\"`. It names a base and the checks of its
   at_most = 2.0
   reason = \"two standard uncertainties of the camera\"
 
---output-every, or [output] with `every` and `fields` in a file, writes states/RUN.pvd and states/RUN-walls.pvd; such
-runs always start from the beginning.
-The folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
-snapshots/*.pvd for ParaView.
+--output-every, or [output] with `every` and `fields` in a file, writes states/RUN.pvd and states/RUN-walls.pvd.
+Runs with this output always start from the beginning.
+The output folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv and figures/.
+It also receives snapshots/*.pvd for ParaView.
 
 Exit codes: 0 no new failure, 1 a new failure or a gate not judged, 2 bad input, 3 a run diverged.";
 
@@ -91,8 +91,8 @@ const REPORT_EXAMPLES: &str = "Examples:
 
 The report is one self-contained folder. Its index.html links to a page of every case; failures come first.
 
-Exit codes: 0 no new failure, 1 a new failure or a gate not judged or, with --deny moved, a value moved,
-2 bad input, 3 a run diverged.";
+Exit codes: 0 no new failure, 1 a new failure or a gate not judged, 2 bad input, 3 a run diverged.
+With --deny moved, the exit code is also 1 if a value moved.";
 
 const CALIBRATE_EXAMPLES: &str = "Examples:
   bagnold examples
@@ -100,7 +100,7 @@ const CALIBRATE_EXAMPLES: &str = "Examples:
   bagnold calibrate my.toml --out mine
   bagnold run mine/calibrated.toml
 
-A file with one parameter and one fitted value; data to predict, not to fit, stand under [[hold_out]] in the same form:
+This file fits one parameter to one value; data under [[hold_out]], in the same form, are predicted and not fitted:
 
   title = \"static friction of our sand\"
 
@@ -115,10 +115,10 @@ A file with one parameter and one fitted value; data to predict, not to fit, sta
   data = [{ metric = \"run_out\", variant = \"material=sand,aspect_ratio=0.9,resolution=20\",
             value = 1.2, unit = \"-\", uncertainty = 0.1, source = \"own, May\" }]
 
-data may also name a CSV: { table = \"profile-…\", x = \"y [m]\", y = \"u [m/s]\", file = \"mine.csv\" }.
-With `law = \"mu-i\"` instead of `case`, a block fits that law to points (I, mu) without a simulation. Its data are
-{ file = \"points.csv\" }, as `bagnold grains` writes them, and paths are those of the law, such as \"static_friction\".
-The folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml, or law.toml with draws.";
+`data` may also name a CSV file: { table = \"profile-…\", x = \"y [m]\", y = \"u [m/s]\", file = \"mine.csv\" }.
+With `law = \"mu-i\"` instead of `case`, a block fits that law to points (I, mu) without a simulation.
+Its data are { file = \"points.csv\" }, as `bagnold grains` writes it; its paths are those of the law, such as \"static_friction\".
+The output folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml (law.toml with draws).";
 
 /// Simulates granular and sediment flows by smoothed particle hydrodynamics and judges them against exact solutions and experiments.
 #[derive(Debug, Parser)]
@@ -158,7 +158,7 @@ pub enum Command {
     Judge(JudgeArguments),
     /// Judge the stored results of other codes and write one page.
     League(LeagueArguments),
-    /// Average the grains of a DEM code to depth profiles, and to points of a friction law.
+    /// Average the grains of a DEM code to depth profiles and to points of a friction law.
     Grains(GrainsArguments),
     /// Write the inputs that another code needs to run a case.
     Export(ExportArguments),
@@ -185,7 +185,7 @@ pub enum Command {
 /// `bagnold schema`
 #[derive(Debug, Args)]
 pub struct SchemaArguments {
-    /// Name of a case, see `bagnold list`, or `study`, `calibration`, `grains` or `sweep` for such a file.
+    /// Name of a case (see `bagnold list`), or kind of file: `study`, `calibration`, `grains` or `sweep`.
     #[arg(value_name = "CASE|KIND")]
     pub case: String,
     /// Tier that supplies the defaults.
@@ -196,7 +196,7 @@ pub struct SchemaArguments {
 /// `bagnold show`
 #[derive(Debug, Args)]
 pub struct ShowArguments {
-    /// Name of a case, see `bagnold list`, or a case file, which is completed.
+    /// Name of a case (see `bagnold list`), or a case file to complete.
     #[arg(value_name = "CASE|FILE.toml")]
     pub case: String,
     /// Resolution and run time of the case [default: the file's, else quick].
@@ -205,7 +205,7 @@ pub struct ShowArguments {
     /// Change one parameter, such as a law; may be repeated.
     #[arg(long = "set", value_name = "path=value")]
     pub settings: Vec<String>,
-    /// Draw the initial state of a scene instead, with the material that its walls remove; no simulation.
+    /// Draw the initial state of a scene, with the material that its walls remove, without a simulation.
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     pub picture: Option<PathBuf>,
 }
@@ -223,7 +223,7 @@ pub struct RunArguments {
     /// Change one parameter; may be repeated.
     #[arg(long = "set", value_name = "path=value")]
     pub settings: Vec<String>,
-    /// Run several values of a parameter instead of the tier's own runs; repeat it for all combinations.
+    /// Run several values of a parameter instead of the tier's own runs; repeat the option for all combinations.
     #[arg(long, value_name = "path=A,B,C")]
     pub vary: Vec<String>,
     /// Start a scene from the stored state of another run, or from the last state in a folder of results.
@@ -244,10 +244,10 @@ pub struct RunArguments {
     /// Particle fields to write, such as id,velocity,shear_rate,inertial_number [default: all].
     #[arg(long, value_name = "FIELD,…", value_delimiter = ',', requires = "output_every")]
     pub output_fields: Vec<String>,
-    /// Folder to write [default: reports/runs/CASE-TIER].
+    /// Output folder [default: reports/runs/CASE-TIER].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Print particles, memory and hours of each run instead of simulating it.
+    /// Print particles, memory and core hours of each run without simulating it.
     #[arg(long, conflicts_with_all = ["json", "junit"])]
     pub estimate: bool,
     /// Print only metrics.json on standard output.
@@ -256,7 +256,7 @@ pub struct RunArguments {
     /// Also write the verdicts as JUnit XML, one test per gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
-    /// Reject an input with warnings, such as implausible values.
+    /// Reject input that causes warnings, such as implausible values.
     #[arg(long)]
     pub deny_warnings: bool,
     /// Print wall time, processor time and peak memory on standard error.
@@ -282,8 +282,8 @@ pub struct RunArguments {
 
 New shells complete commands if the package bash-completion is installed; otherwise add this line to ~/.bashrc:
   . ~/.local/share/bash-completion/completions/bagnold
-Zsh reads `_bagnold` in a folder of $fpath, fish reads ~/.config/fish/completions/bagnold.fish. `man bagnold` finds the page
-if ~/.local/bin is in the PATH.")]
+Zsh reads `_bagnold` in a folder of $fpath, fish reads ~/.config/fish/completions/bagnold.fish.
+`man bagnold` finds the page if ~/.local/bin is in the PATH.")]
 pub struct CompletionsArguments {
     /// Shell, or `man` for the manual page in troff.
     #[arg(value_name = "SHELL", value_parser = ["bash", "zsh", "fish", "man"])]
@@ -306,7 +306,7 @@ pub struct ReportArguments {
     /// Change one parameter of every case that has it; may be repeated.
     #[arg(long = "set", value_name = "path=value", conflicts_with_all = ["accept", "suite"])]
     pub settings: Vec<String>,
-    /// Folder to write [default: reports, or reports/suites/NAME].
+    /// Output folder [default: reports, or reports/suites/NAME].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Save these values as the new baseline (tests/snapshots in a checkout, otherwise ./snapshots; for a suite,
@@ -350,7 +350,7 @@ pub struct CalibrateArguments {
     /// TOML file with parameters, cases and data.
     #[arg(value_name = "FILE.toml")]
     pub file: PathBuf,
-    /// Folder to write [default: reports/calibrations/FILE].
+    /// Output folder [default: reports/calibrations/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Reopen a finished calibration; an unfinished one resumes without this option.

@@ -8,13 +8,13 @@ const EXAMPLES: &str = "Examples:
   bagnold calibrate examples/calibrations/mu-i-from-profiles.toml
   bagnold sweep examples/sweeps/bed-load-1d-map.toml
 
-The folder receives calibrations/*.toml, grains/*.toml and studies/*.toml with their data, scenes/*.toml and sweeps/*.toml.";
+The output folder receives calibrations/*.toml, grains/*.toml and studies/*.toml with their data, scenes/*.toml and sweeps/*.toml.";
 
 /// `bagnold examples`
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ExamplesArguments {
-    /// Folder to write; what an earlier call wrote there is replaced.
+    /// Output folder; what an earlier call wrote there is replaced.
     #[arg(long, value_name = "DIR", default_value = "examples")]
     pub out: PathBuf,
 }

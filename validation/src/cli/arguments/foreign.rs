@@ -9,9 +9,9 @@ const JUDGE_EXAMPLES: &str = "Examples:
   bagnold judge mine.toml                               your code and ours, judged by the same gates
   bagnold judge mine.toml theirs.toml --out compared    several codes in one table
 
-A submission names the case, the code, its runs and the data of each run: particles at several times (tables or VTK),
-time series, a profile, or single numbers. Metrics are computed from them as from our own runs. A metric without data
-reads \"not judged\" and neither passes nor fails. The folder receives index.html, metrics.json, figures/ and tables/.
+A submission names case, code and runs. Data of a run are particles at several times (tables or VTK), time series, a profile or numbers.
+Metrics are computed from these data as from our own runs. A metric without data is \"not judged\" and neither passes nor fails.
+The output folder receives index.html, metrics.json, figures/ and tables/.
 
 Exit codes: 0 all gates with data pass, 1 a gate fails or no gate has data, 2 bad input, 3 a Bagnold run diverged.";
 
@@ -20,8 +20,8 @@ const LEAGUE_EXAMPLES: &str = "Examples:
   bagnold league my-codes --out compared                the results in your folder
 
 The page has a row per code and a column per case, and for each case all metrics with the distance from their reference.
-For three or more codes with one law, the page also shows their standard deviation and the limit. The folder also receives an
-archive of each submission, CODE-CASE.tar.
+For three or more codes with one law, the page also shows the standard deviation of their results and the limit.
+The output folder also receives an archive of each submission, CODE-CASE.tar.
 
 Exit codes: 0 all results judged, whatever the verdicts, 2 bad input, 3 a Bagnold run diverged.";
 
@@ -30,9 +30,9 @@ const EXPORT_EXAMPLES: &str = "Examples:
   bagnold export bagnold --tier paper --out for-my-code
   bagnold export film --for openfoam --out film         also writes deck/run.sh and its submission.toml
 
-The folder receives case.toml (geometry, material), boundary.csv and start.csv (boundary conditions and start of each run),
-reference/ (exact and measured curves), definitions.md (laws, limits) and submission.toml for `bagnold judge`. --simulate adds particles/ (initial particles as CSV and VTU) and
-bagnold/ (profiles and histories).";
+The output folder receives case.toml (geometry, material), boundary.csv and start.csv (boundary and initial conditions of each run).
+It also receives reference/ (exact and measured curves), definitions.md (laws, limits) and submission.toml for `bagnold judge`.
+--simulate adds particles/ (initial particles as CSV and VTU) and bagnold/ (profiles and histories).";
 
 /// `bagnold judge`
 #[derive(Debug, Args)]
@@ -47,7 +47,7 @@ pub struct JudgeArguments {
     /// Resolution and run time of the runs in the printed submission.
     #[arg(long, value_enum, default_value_t = Tier::Quick, requires = "template")]
     pub tier: Tier,
-    /// Folder to write [default: reports/judged/CASE].
+    /// Output folder [default: reports/judged/CASE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Also write the verdicts as JUnit XML, one suite per code.
@@ -64,7 +64,7 @@ pub struct JudgeArguments {
 pub struct LeagueArguments {
     /// Folder with one submission per code and case, CODE/CASE/submission.toml [default: validation/league of the checkout].
     pub folder: Option<PathBuf>,
-    /// Folder to write.
+    /// Output folder.
     #[arg(long, value_name = "DIR", default_value = "reports/league")]
     pub out: PathBuf,
     /// Execution options.
@@ -81,7 +81,7 @@ pub struct ExportArguments {
     /// Resolution and run time of the runs.
     #[arg(long, value_enum, default_value_t = Tier::Quick)]
     pub tier: Tier,
-    /// Folder to write.
+    /// Output folder.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Also write the deck of this code with run.sh: openfoam, gerris, dualsphysics, lammps, newton or yade.
@@ -101,7 +101,7 @@ const GRAINS_EXAMPLES: &str = "Examples:
   bagnold calibrate examples/grains/law.toml --out law      fit a law to slopes/points.csv
 
 A plan lists runs with their geometry, files and columns; see examples/grains/slopes.toml and `bagnold schema grains`.
-The folder receives fields-1.csv, fields-2.csv, …, points.csv and figures/.";
+The output folder receives fields-1.csv, fields-2.csv, …, points.csv and figures/.";
 
 /// `bagnold grains`
 #[derive(Debug, Args)]
@@ -110,7 +110,7 @@ pub struct GrainsArguments {
     /// TOML file that lists the runs of the DEM code with their dump files and columns.
     #[arg(value_name = "FILE.toml")]
     pub file: PathBuf,
-    /// Folder to write [default: reports/grains/FILE].
+    /// Output folder [default: reports/grains/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -121,8 +121,8 @@ const COMPARE_EXAMPLES: &str = "Examples:
   bagnold compare before after --out compared
   bagnold compare report-of-may reports --out compared     compare the numbers of two reports
 
-For folders of `bagnold run`, profiles and histories are drawn into one figure. For reports, numbers are compared.
-The folder receives index.html, differences.json and figures/.
+For folders of `bagnold run`, the command draws profiles and histories into one figure; for reports, it compares numbers.
+The output folder receives index.html, differences.json and figures/.
 
 Exit codes: 0 compared, 1 with --deny-differences if a number differs by more than its tolerance, 2 bad input.";
 
@@ -133,7 +133,7 @@ pub struct CompareArguments {
     /// Folders of `bagnold run` or `bagnold report`; the first is the reference.
     #[arg(value_name = "DIR", required = true, num_args = 2..)]
     pub folders: Vec<PathBuf>,
-    /// Folder to write.
+    /// Output folder.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// End with exit code 1 if a number differs by more than its tolerance.

@@ -8,8 +8,8 @@ const EXAMPLES: &str = "Examples:
   cd my-law
   cargo run -- run film.toml --out film
 
-The crate builds the program bagnold with one more law or case. It contains the law or case, a test against an exact
-solution, case files and a README with the next steps.";
+The crate builds the program bagnold with one more law or case.
+It contains the law or case, a test against an exact solution, case files and a README with the next steps.";
 
 /// `bagnold new`
 #[derive(Debug, Args)]

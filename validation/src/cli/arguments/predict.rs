@@ -7,16 +7,16 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "Example:
   bagnold predict bed-load --grain-diameter 0.002 --slope 0.015 --depth 0.1 --width 0.3
 
-The transport is that of a steady one-dimensional layer with closures from the literature. The interval combines draws of the
-closures from their ranges with the scatter of measured runs at about the same Shields number.";
+The transport is that of a steady one-dimensional layer with closures from the literature.
+The interval combines draws of the closures from their ranges with the scatter of measured runs at about the same Shields number.";
 
 const COLLAPSE_EXAMPLES: &str = "Example:
   bagnold predict column-planar --law law/law.toml --set half_width=0.08 --set solid_fraction=0.76 --out column
 
-The law holds [material] and [[draws]]. DIR/plan.json receives a digest of law, flow and program before anything runs; the folder
-rejects another plan. u_input is the standard deviation over the draws.
-u_numerical is the difference of both resolutions, or the front's uncertainty from the spacing where that is larger.
-Measurements stand below `run_out [-],run_out uncertainty [-]`, or repeats below `run_out #1 [-],run_out #2 [-]`.";
+The law holds [material] and [[draws]]. Before anything runs, DIR/plan.json receives a digest of law, flow and program.
+The folder rejects another plan. u_input is the standard deviation over the draws.
+u_numerical is the difference between the two resolutions, or the front's uncertainty due to the spacing where that is larger.
+The heading of the measurements is `run_out [-],run_out uncertainty [-]`, or of repeats `run_out #1 [-],run_out #2 [-]`.";
 
 /// `bagnold predict`
 #[derive(Debug, Args)]
@@ -56,7 +56,7 @@ pub struct CollapseArguments {
     /// CSV table of the measured collapse, with one row.
     #[arg(long, value_name = "FILE.csv")]
     pub measured: Option<PathBuf>,
-    /// Folder to write [default: reports/predictions/CASE].
+    /// Output folder [default: reports/predictions/CASE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Resource limits of each run.

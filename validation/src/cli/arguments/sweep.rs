@@ -9,7 +9,7 @@ const SWEEP_EXAMPLES: &str = "Examples:
   bagnold sweep viscosity.toml --out /shared/viscosity --engine slurm --partition short --time 00:30:00 --throttle 50
   bagnold sweep collect /shared/viscosity --resubmit
 
-A file that varies the viscosity of a film over a grid:
+This file varies the viscosity of a film over a grid:
 
   design = \"grid\"   # or design.sobol = { points = 64, seed = 1 }, design.latin_hypercube = { … }
 
@@ -21,7 +21,7 @@ A file that varies the viscosity of a film over a grid:
   path = \"material.viscosity\"
   values = [0.5, 1.0, 2.0]         # or lower, upper, levels, scale = \"log\"
 
-The folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line per metric), failures.csv and figures/.
+The output folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line per metric), failures.csv and figures/.
 
 Exit codes: 0 every run has results, 1 runs are missing, 2 bad input, 3 runs failed (see failures.csv).";
 
