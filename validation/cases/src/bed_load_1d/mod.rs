@@ -26,7 +26,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct BedLoad1d;
 
-/// A run with what it left behind.
+/// A run with its results.
 type BedLoad1dRecord = RecordOf<BedLoad1dFlow>;
 
 impl Case for BedLoad1d {
@@ -37,7 +37,7 @@ impl Case for BedLoad1d {
     const DESCRIPTION: &'static str = "\
         Setup. Water flows down a slope and drags the upper grains of a bed along. Both phases are continua over the \
         depth, without particles. Grains have μ(I), a solid fraction that falls with I, and drag; water has a mixing \
-        length that grows where grains leave room. No parameter is fitted to the transport. One is chosen: the \
+        length that grows where grains leave room. No parameter is fitted to the transport. One parameter is chosen: the \
         length over which bed roughness fades. In the layers `grains=suspended` eddies also lift grains.\n\n\
         Judged. Transport on three slopes against a formula fitted to flume experiments. Two starts must reach one \
         steady state, balance and converge. Water over the moving bed against water over the same bed at rest. \

@@ -34,8 +34,8 @@ impl Case for NonlocalShearFlows {
         Setup. Three steady flows of glass beads under the nonlocal law, periodic along rough walls: a vertical \
         chute, a bed dragged by a plate under gravity, and a heap on a slope between side walls. The momentum \
         balance fixes their stresses. A local law is at rest where the stress ratio is below μ_s; the nonlocal law \
-        shears there over a few grains. Particles start 10 % too fast and are compared with the ordinary \
-        differential equation of the steady flow, at the pressure that they have.\n\n\
+        shears there over a few grains. Particles start 10 % too fast; the reference solves the ordinary \
+        differential equation of the steady flow at the pressure of the particles.\n\n\
         Judged. Velocities, the e-folding length of the creeping zone, the width of the shear layer at a wall of the \
         chute, and the traction on the plate. The heap also runs under the local law (exact profile, paper tier).";
     type Flow = NonlocalShearFlow;

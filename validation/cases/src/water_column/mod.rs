@@ -25,8 +25,8 @@ impl Case for WaterColumn {
         "a column of water that collapses on a bed: energy balance, and front and height against measurements";
     const DESCRIPTION: &'static str = "\
         Setup. A column of water (1 mPa·s), twice as high as wide, is released beside a symmetry plane by the weakly \
-        compressible model, on smooth and on rough beds, with and without tension. Grains would dissipate energy \
-        that a wall feeds in; water shows it. Another column, square, stands behind a gate that is lifted at 4.53 \
+        compressible model, on smooth and on rough beds, with and without tension. Water shows energy that a \
+        wall feeds in, which grains would dissipate. A square column stands behind a gate that is lifted at 4.53 \
         m/s. The momentum equation uses the uncorrected divergence, which is adjoint to the continuity equation.\n\n\
         Judged. The energy balance closes and total energy does not rise. The front of the gated column against \
         Lobovský et al. (2014). The height at the wall against Martin & Moyce (1952).\n\n\
