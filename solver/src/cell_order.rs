@@ -21,7 +21,7 @@ pub(crate) struct CellOrder {
 }
 
 impl CellOrder {
-    /// Sorts so many entries by their cell, of `cells` in all: writes into `sorted[place]` which entry it is. What `sorted` has
+    /// Sorts a number of entries by their cells, of which there are `cells`: writes into `sorted[place]` which entry it is. What `sorted` has
     /// beyond the entries stays.
     #[inline(always)]
     pub(crate) fn sort(&mut self, cells: usize, cell_of: impl Fn(usize) -> usize + Sync, sorted: &mut [u32]) {

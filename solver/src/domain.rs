@@ -28,7 +28,7 @@ pub enum AxisBoundary {
 /// The boundaries along every axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Domain<const D: usize> {
-    /// One boundary an axis.
+    /// Boundaries, one per axis.
     pub axes: [AxisBoundary; D],
 }
 

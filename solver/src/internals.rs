@@ -1,6 +1,6 @@
 //! For the tests of this package alone: parts of private modules, and arrays of particles that the interface does not show.
 
-/// Of the weakly compressible model.
+/// Internals of the weakly compressible model.
 pub mod weakly_compressible {
     pub use crate::weakly_compressible::model::Model;
     pub use crate::weakly_compressible::state::State;
@@ -19,7 +19,7 @@ pub mod weakly_compressible {
         &mut simulation.state
     }
 
-    /// That alone.
+    /// State alone.
     pub fn into_state<const D: usize>(simulation: Simulation<D>) -> State<D> {
         simulation.state
     }
@@ -61,7 +61,7 @@ pub mod weakly_compressible {
     }
 }
 
-/// Of the incompressible model.
+/// Internals of the incompressible model.
 pub mod incompressible {
     pub use crate::incompressible::columns::Grains;
     pub use crate::incompressible::neighbours::{Across, Grid, LaneList, Pairs, Periods, Sources};
@@ -78,7 +78,7 @@ pub mod incompressible {
         (Grid::new(), LaneList::new(), Pairs::new())
     }
 
-    /// Takes the pressure of a mixture out of a state.
+    /// Removes the pressure of a mixture from a state and returns it.
     pub fn take_mixture(state: &mut State<2>) -> Mixture<2> {
         std::mem::take(&mut state.projection.mixture)
     }
@@ -88,7 +88,7 @@ pub mod incompressible {
         &simulation.state
     }
 
-    /// That, to be changed.
+    /// Mutable state of a simulation.
     pub fn state_mut(simulation: &mut IncompressibleSimulation<2>) -> &mut State<2> {
         &mut simulation.state
     }

@@ -47,7 +47,7 @@ impl Rooms {
         }
     }
 
-    /// The room of a file; none of what no simulation depends on.
+    /// The room of a file; none for what no simulation depends on.
     pub(crate) fn room(&self, path: &str) -> Option<String> {
         let within = |folder: &str| path.strip_prefix(folder).and_then(|rest| rest.split_once('/'));
         let is_of_case = path.starts_with("validation/cases/src/") || path.starts_with("validation/scenes/src/");

@@ -47,7 +47,7 @@ impl Kind {
     /// All kinds.
     pub(crate) const ALL: [Self; 4] = [Self::Still, Self::Clear, Self::Bed, Self::Columns];
 
-    /// Its name.
+    /// Name.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Still => "still",

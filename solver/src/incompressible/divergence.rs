@@ -21,7 +21,7 @@ pub(super) enum Quantity {
 }
 
 impl Quantity {
-    /// Its name in messages, its unit or what is counted, and the rule that it broke, as that follows the value; `limit` is the largest
+    /// Name in messages, its unit or what is counted, and the rule that it broke, as that follows the value; `limit` is the largest
     /// value allowed.
     pub(super) fn texts(self, limit: f64) -> (&'static str, &'static str, String) {
         let of_solve = format!(" after at most {MOST_ITERATIONS} iterations, above the tolerance of {limit:.1e}");

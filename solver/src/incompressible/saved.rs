@@ -94,7 +94,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
 }
 
 impl<const D: usize> State<D> {
-    /// Takes a saved state of the same scene.
+    /// Restores a saved state of the same scene.
     pub(super) fn restore(&mut self, saved: SavedIncompressible<D>) -> Result<(), ForeignState> {
         let State { phases, exchange, columns, search, viscosities, system, projection, .. } = self;
         let particles: usize = phases.all().map(Phase::len).sum();

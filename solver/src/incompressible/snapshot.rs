@@ -44,7 +44,7 @@ impl<const D: usize> PhaseSnapshot<D> {
         }
     }
 
-    /// Of grains of columns pressures of 0 and concentrations of 1: they have none of their own.
+    /// Pressure 0 and concentration 1 for grains of columns, which have no values of their own.
     pub(super) fn of_sediment(sediment: &SedimentParticles<'_, D>) -> Self {
         let SedimentParticles { position, velocity, mass, of_phase } = *sediment;
         let all = |value: f64| vec![value; position.len()];

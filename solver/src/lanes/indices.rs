@@ -246,7 +246,7 @@ impl CheckedIndices {
         result
     }
 
-    /// Takes the chunks of others, into memory that is there.
+    /// Copies the chunks of others into existing memory.
     pub fn copy_from(&mut self, other: &Self) {
         self.chunks.clone_from(&other.chunks);
         self.bound = other.bound;
@@ -294,7 +294,7 @@ impl<'a> LaneChunks<'a> {
         self.raw.is_empty()
     }
 
-    /// Takes the first few away, as many as there are.
+    /// Removes and returns the first `count` items, or all if there are fewer.
     #[inline(always)]
     #[must_use]
     pub fn take_first(&mut self, count: usize) -> Self {

@@ -139,7 +139,7 @@ pub fn gather_tensors<V: Lanes, const D: usize>(source: &[Tensor<D>], indices: &
     lanes
 }
 
-/// A computation over lanes. `run` must be `#[inline(always)]`, so that it is compiled for the chosen back end.
+/// A computation over vector lanes. `run` must be `#[inline(always)]`, so that it is compiled for the chosen back end.
 pub trait LanePass {
     /// The computation.
     fn run<V: Lanes>(self);
@@ -193,7 +193,7 @@ impl InstructionSet {
         Self(*best.expect("an instruction set of this processor: build on this machine, or with --release"))
     }
 
-    /// Its name.
+    /// Name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {

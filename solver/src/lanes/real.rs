@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// One f64, eight lanes of f64 with the same rounding, or eight lanes of f32.
+/// Number type: one f64, eight lanes of f64 with the same rounding, or eight lanes of f32.
 pub trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -60,7 +60,7 @@ impl Real for f64 {
     }
 }
 
-/// One number of a precision. f32 is not [`Real`], so that a formula of plain numbers is one of f64.
+/// A number of one precision. f32 is not [`Real`], so that a formula of plain numbers is one of f64.
 pub trait Number: Copy + Into<f64> {
     /// The nearest number of this precision.
     fn of(value: f64) -> Self;

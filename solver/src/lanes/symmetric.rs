@@ -17,18 +17,18 @@ const fn entries(dimension: usize) -> usize {
 }
 
 impl<const D: usize> LaneTensors<D> {
-    /// Zeros for so many particles.
+    /// Zeros for a number of particles.
     #[must_use]
     pub fn new(particles: usize) -> Self {
         Self { values: vec![[0.0; LANES]; particles.div_ceil(LANES) * entries(D)] }
     }
 
-    /// Room for so many particles.
+    /// Room for a number of particles.
     pub fn resize(&mut self, particles: usize) {
         self.values.resize(particles.div_ceil(LANES) * entries(D), [0.0; LANES]);
     }
 
-    /// Whether there is one for each of so many particles.
+    /// Whether there is one tensor for each of a number of particles.
     #[must_use]
     pub fn is_for(&self, particles: usize) -> bool {
         self.values.len() == particles.div_ceil(LANES) * entries(D)
@@ -50,7 +50,7 @@ impl<const D: usize> LaneTensors<D> {
         lanes
     }
 
-    /// Parts of so many groups, to be written by [`store_symmetric`].
+    /// Parts of a given number of groups, to be written by [`store_symmetric`].
     pub(crate) fn blocks_mut(&mut self, groups: usize) -> ChunksMut<'_, [f64; LANES]> {
         self.values.par_chunks_mut(groups * entries(D))
     }

@@ -57,7 +57,7 @@ pub(crate) struct ConjugateGradient<T> {
     /// Sums of blocks.
     numbers: Vec<f64>,
     vectors: Vec<T>,
-    /// Of all solves.
+    /// Iterations of all solves.
     pub(crate) iterations: u64,
 }
 

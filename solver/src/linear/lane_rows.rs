@@ -70,14 +70,14 @@ pub(crate) struct LaneRows<C> {
     set: InstructionSet,
 }
 
-/// A group while it is filled.
+/// A group that is being filled.
 pub(crate) struct RowGroup<'a, C> {
     columns: &'a mut [[u32; LANES]],
     coefficients: &'a mut [C],
     filled: &'a mut [u32],
 }
 
-/// A row while it is filled.
+/// A row that is being filled.
 pub(crate) struct Row<'a, C> {
     columns: &'a mut [[u32; LANES]],
     coefficients: &'a mut [C],

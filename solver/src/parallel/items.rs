@@ -6,7 +6,7 @@ pub(crate) trait Items: Sized + Send {
     type Item;
     /// Number of items.
     fn length(&self) -> usize;
-    /// The first so many items, and the others.
+    /// The first N items, and the others.
     fn divided(self, place: usize) -> (Self, Self);
     /// The items one after the other.
     fn sequence(self) -> impl Iterator<Item = Self::Item>;
@@ -14,9 +14,9 @@ pub(crate) trait Items: Sized + Send {
 
 /// Conversion into the items of a parallel loop.
 pub(crate) trait IntoItems: Sized {
-    /// Its items.
+    /// Items.
     type Items: Items;
-    /// Its items.
+    /// Items.
     fn into_items(self) -> Self::Items;
 }
 
@@ -132,9 +132,9 @@ impl<'a, T: Send> Items for ChunksMut<'a, T> {
     }
 }
 
-/// Slices that loops read.
+/// Slices that the loops read.
 pub(crate) trait ParallelSlice<T> {
-    /// Chunks of so many values, the last may have fewer. Panics if `size` is zero.
+    /// Chunks of `size` values; the last may have fewer. Panics if `size` is zero.
     fn par_chunks(&self, size: usize) -> Chunks<'_, T>;
 }
 
@@ -147,7 +147,7 @@ impl<T> ParallelSlice<T> for [T] {
 
 /// Slices that loops write.
 pub(crate) trait ParallelSliceMut<T> {
-    /// Chunks of so many values, the last may have fewer. Panics if `size` is zero.
+    /// Chunks of `size` values; the last may have fewer. Panics if `size` is zero.
     fn par_chunks_mut(&mut self, size: usize) -> ChunksMut<'_, T>;
     /// The values one by one.
     fn par_iter_mut(&mut self) -> &mut [T];

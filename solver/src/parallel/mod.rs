@@ -11,7 +11,7 @@ mod tests;
 
 pub(crate) use items::{ChunksMut, Items};
 
-/// All that a file with loops needs.
+/// Everything that a file with loops needs.
 pub(crate) mod prelude {
     pub(crate) use super::Parallel;
     pub(crate) use super::items::{IntoItems, Items, ParallelSlice, ParallelSliceMut};
@@ -51,7 +51,7 @@ impl<I: IntoItems> Parallel for I {}
 /// An item of what becomes items.
 type Item<I> = <<I as IntoItems>::Items as Items>::Item;
 
-/// Items in parts of at least so many.
+/// Items in parts of at least a given size.
 #[derive(Debug)]
 pub(crate) struct Loop<I> {
     items: I,
@@ -151,7 +151,7 @@ impl<F: Fn() + Sync> Work for F {
     }
 }
 
-/// Lets so many threads do `work`.
+/// Does `work` on a given number of threads.
 fn on_threads(threads: usize, work: &dyn Work) {
     if threads <= 1 {
         work.work();

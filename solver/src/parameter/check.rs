@@ -9,21 +9,21 @@ use toml::{Table, Value};
 pub enum Fault {
     /// There is no such field.
     Unknown {
-        /// Its path.
+        /// Path.
         path: String,
         /// The paths of the fields beside it.
         known: Vec<String>,
     },
     /// The field is absent.
     Missing {
-        /// Its path.
+        /// Path.
         path: String,
         /// Names and descriptions of all fields that are absent beside it, itself first.
         absent: Vec<(String, String)>,
     },
     /// The value is not of the field's type.
     Kind {
-        /// Its path.
+        /// Path.
         path: String,
         /// The value as written; none if it takes more than a line.
         value: Option<String>,

@@ -26,7 +26,7 @@ impl ParameterProblem {
         }
     }
 
-    /// Says that the field is part of a group of parameters.
+    /// Marks the field as part of a group of parameters.
     #[must_use]
     pub fn within(mut self, group: &str) -> Self {
         self.field = format!("{group}.{}", self.field);

@@ -63,25 +63,25 @@ pub fn not_negative(remedy: &str) -> Rule {
     Rule::new([("minimum", 0.into()), ("x-finite", true.into())], remedy)
 }
 
-/// At least a bound; what bounds it above depends on other fields.
+/// Rule for values of at least a bound; the upper bound depends on other fields.
 #[must_use]
 pub fn at_least(bound: f64, remedy: &str) -> Rule {
     Rule::new([("minimum", number(bound))], remedy)
 }
 
-/// In `[lower, upper]`.
+/// Rule for values in `[lower, upper]`.
 #[must_use]
 pub fn between(lower: f64, upper: f64, remedy: &str) -> Rule {
     Rule::new([("minimum", number(lower)), ("maximum", number(upper))], remedy)
 }
 
-/// In `(0, upper]`.
+/// Rule for values in `(0, upper]`.
 #[must_use]
 pub fn up_to(upper: f64, remedy: &str) -> Rule {
     Rule::new([("exclusiveMinimum", 0.into()), ("maximum", number(upper))], remedy)
 }
 
-/// In `(lower, upper)`.
+/// Rule for values in `(lower, upper)`.
 #[must_use]
 pub fn inside(lower: f64, upper: f64, remedy: &str) -> Rule {
     Rule::new([("exclusiveMinimum", number(lower)), ("exclusiveMaximum", number(upper))], remedy)

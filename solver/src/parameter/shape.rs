@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 /// One choice of an enum.
 #[derive(Debug, Clone, Copy)]
 pub struct Variant<'a> {
-    /// Its name in files.
+    /// Name in files.
     pub name: &'a str,
     /// The schema of what it holds: of the value below its name, or of the whole table where a tag chooses; none for a
     /// bare name.

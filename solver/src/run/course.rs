@@ -13,7 +13,7 @@ pub struct RunProgress {
     pub(super) interval: f64,
     /// Time at its start `[s]`; none before it.
     pub(super) origin: Option<f64>,
-    /// Observations that were due.
+    /// Observations that were due at this step.
     pub(super) observed: u64,
     /// Step of the last one.
     pub(super) observed_step: u64,
@@ -62,7 +62,7 @@ pub trait Observer<S> {
     }
 }
 
-/// A closure that observes, and never interrupts.
+/// Observer made of a closure; it never interrupts.
 pub(crate) struct Watching<F>(pub(crate) F);
 
 impl<S, F: FnMut(&S) -> ControlFlow<()>> Observer<S> for Watching<F> {

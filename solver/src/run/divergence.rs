@@ -19,13 +19,13 @@ pub struct Divergence<const D: usize> {
     pub step: u64,
     /// Identity of the particle.
     pub particle: u32,
-    /// Its position `[m]`.
+    /// Position `[m]`.
     pub position: Vector<D>,
     /// Name of the quantity that left its range.
     pub quantity: &'static str,
-    /// Its value, in its unit.
+    /// Value, in its unit.
     pub value: f64,
-    /// Its unit, or what is counted.
+    /// Unit, or what is counted.
     pub unit: &'static str,
     /// The rule that it broke, as it follows the value in the message: with the comma or the space that joins them.
     pub rule: String,

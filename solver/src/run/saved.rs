@@ -5,19 +5,19 @@ use super::SceneError;
 /// Reason why a saved simulation is not continued.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ContinueError {
-    /// Its scene breaks a rule.
+    /// Scene breaks a rule.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// It is that of another scene.
     #[error(transparent)]
     Foreign(#[from] ForeignState),
-    /// Its clock shows a time that no run reaches, up to which it would be simulated for ever.
+    /// Clock shows a time that no run reaches, up to which it would be simulated for ever.
     #[error("the saved state is damaged: its time is {0} s, but must be between 0 and the end of a run")]
     Time(f64),
 }
 
 impl ContinueError {
-    /// Refuses a time `[s]` before the start, without end or that is no number.
+    /// Refuses a time `[s]` that is negative, infinite or not a number.
     pub(crate) fn check_time(time: f64) -> Result<(), Self> {
         if (0.0..f64::INFINITY).contains(&time) { Ok(()) } else { Err(Self::Time(time)) }
     }
@@ -29,9 +29,9 @@ impl ContinueError {
 pub struct ForeignState {
     /// Name of the items that were counted.
     pub what: &'static str,
-    /// Number in the saved state.
+    /// Value in the saved state.
     pub found: usize,
-    /// Number in the scene.
+    /// Value in the scene.
     pub expected: usize,
 }
 

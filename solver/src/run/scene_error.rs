@@ -14,7 +14,7 @@ pub enum SceneError {
     Length {
         /// Name of the array.
         array: &'static str,
-        /// Its length.
+        /// Length.
         found: usize,
         /// The number of positions.
         expected: usize,
@@ -59,7 +59,7 @@ pub enum SceneError {
     Period {
         /// Index of the axis.
         axis: usize,
-        /// Its period.
+        /// Period.
         length: f64,
         /// The least that works.
         least: f64,

@@ -57,7 +57,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Its name in messages, its unit or what is counted, and the rule that it broke, as it follows the value in a message.
+    /// Name in messages, its unit or what is counted, and the rule that it broke, as it follows the value in a message.
     #[must_use]
     pub fn texts(&self) -> (&'static str, &'static str, String) {
         match self {

@@ -38,21 +38,21 @@ pub struct EnergyLedger {
     pub gravity: f64,
     /// Work of walls: of those that move, and what the extrapolation of those at rest feeds into the flow.
     pub walls: f64,
-    /// Dissipated by the viscosity of a law, of eddies and of elastic damping.
+    /// Energy dissipated by the viscosity of a law, of eddies and of elastic damping.
     pub viscous: f64,
-    /// Dissipated by plastic flow, and by the diffusion of the stress ratio.
+    /// Energy dissipated by plastic flow, and by the diffusion of the stress ratio.
     pub plastic: f64,
-    /// Dissipated by artificial viscosity and hourglass control among the flow, and given to its artificial stress.
+    /// Energy dissipated by artificial viscosity and hourglass control within the flow, and given to its artificial stress.
     pub artificial: f64,
-    /// Dissipated by the hourglass control at walls.
+    /// Energy dissipated by the hourglass control at walls.
     pub wall_control: f64,
-    /// Dissipated by the density–pressure coupling.
+    /// Energy dissipated by the density–pressure coupling.
     pub density_coupling: f64,
-    /// Dissipated by contacts with walls.
+    /// Energy dissipated by contacts with walls.
     pub contact: f64,
-    /// Dissipated by the friction of side walls.
+    /// Energy dissipated by the friction of side walls.
     pub side_walls: f64,
-    /// InletMass in by the kernel corrections: the work that the stress does on the gradients as they are taken, less that of
+    /// Energy fed in by the kernel corrections: the work that the stress does on the gradients as they are taken, less that of
     /// the same stress as the forces take it. Negative where they take energy out.
     pub correction: f64,
     /// Fed in where a step crosses the density without pressure and tension is cut: what compression stores of the part under
@@ -121,7 +121,7 @@ pub struct EnergyAccount {
     pub kinetic: f64,
     /// Energy of compression and of elastic shear.
     pub elastic: f64,
-    /// Gains and losses of energy since the start.
+    /// Energy gained and lost since the start.
     pub ledger: EnergyLedger,
 }
 
@@ -196,9 +196,9 @@ pub(crate) struct VelocityStep<'a, V, const D: usize> {
     pub(crate) mass: V,
     pub(crate) time_step: f64,
     pub(crate) gravity: &'a Vector<D>,
-    /// Before the step.
+    /// Velocities before the step.
     pub(crate) before: &'a [V; D],
-    /// After it, with the contact.
+    /// Velocities after the step, with the contact.
     pub(crate) end: &'a [V; D],
     /// Velocity change by a contact.
     pub(crate) contact: &'a [V; D],
@@ -272,7 +272,7 @@ pub(crate) struct PushStep<'a, const D: usize> {
     pub(crate) mass: f64,
     pub(crate) time_step: f64,
     pub(crate) gravity: &'a Vector<D>,
-    /// Without the push.
+    /// Velocity without the push.
     pub(crate) velocity: Vector<D>,
     pub(crate) push: Vector<D>,
     /// Work of the walls that pushed, at their velocities `[J]`.

@@ -19,7 +19,7 @@ pub(crate) fn kept(field: Option<&[f64]>, memory: Option<&[Memory<f64>]>, index:
     FieldStep::alone(field.map_or(0.0, |field| field[index])).with_memory(memory)
 }
 
-/// That of eight particles or fewer; zero in the lanes that are left.
+/// Memory of eight particles or fewer; zero in the remaining lanes.
 #[inline(always)]
 pub(crate) fn load<V: Lanes>(memories: &[Memory<f64>]) -> Memory<V> {
     let mut lanes = [[0.0; LANES]; MOST_MEMORIES];

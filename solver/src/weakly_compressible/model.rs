@@ -82,7 +82,7 @@ impl<const D: usize> Model<D> {
         }
     }
 
-    /// Use of the velocity gradient by the momentum operator and the law.
+    /// Use of the velocity gradient in the momentum operator and in the law.
     pub(crate) fn gradient_use(&self) -> GradientUse {
         match self.numerics.momentum_operator {
             MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence | MomentumOperator::ByLaw => {

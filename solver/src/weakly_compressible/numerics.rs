@@ -46,7 +46,7 @@ pub enum Contact {
     None,
 }
 
-/// In which precision the terms of a pair are taken; what particles keep, and sums over pairs, are always double.
+/// Precision of the terms of a pair; what particles keep, and sums over pairs, are always double.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PairPrecision {

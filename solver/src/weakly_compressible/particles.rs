@@ -168,7 +168,7 @@ impl<const D: usize> Particles<D> {
         flow..end
     }
 
-    /// Takes flow particles out; there are no images now.
+    /// Removes flow particles; there must be no images.
     pub(crate) fn remove(&mut self, gone: &[bool]) {
         let flow = self.flow;
         for_each_shared_array!(self, array => retain(array, |index| index >= flow || !gone[index]));
@@ -277,7 +277,7 @@ impl<const D: usize> Particles<D> {
         permute(&mut self.identity, order, identities);
     }
 
-    /// Whether every array has its length, with so many images, and every particle one identity of those that the scene
+    /// Whether every array has its length, with this number of images, and every particle one identity of those that the scene
     /// began with; what is kept of them is what the law keeps.
     pub(crate) fn are_complete(&self, images: usize, begun: usize, law: &Rheology) -> bool {
         let Self { identity, mass, correction, force_correction, acceleration, support, by_walls, by_damping, .. } =

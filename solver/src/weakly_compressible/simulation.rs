@@ -42,7 +42,7 @@ pub trait Compiled<const D: usize>: Sized {
     /// A quantity out of its range, as where particles lie on top of each other.
     fn compiled_start(&mut self) -> Result<(), Divergence<D>>;
 
-    /// Dummy particles behind the facets of a checked scene in so many rows, wall by wall.
+    /// Dummy particles behind the facets of a checked scene, wall by wall, in a given number of rows.
     fn compiled_backing(scene: &Scene<D>, rows: usize) -> Vec<Vec<BackingParticle<D>>>;
 
     /// The state of a checked scene with these dummy particles.

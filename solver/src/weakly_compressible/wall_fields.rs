@@ -37,7 +37,7 @@ impl<const D: usize> WallFields<D> {
         self.smoothness.push(if is_smooth { 1.0 } else { 0.0 });
     }
 
-    /// Makes room for the images behind so many wall particles, and fills in those of walls.
+    /// Makes room for the images behind a number of wall particles, and fills in those of walls.
     pub(crate) fn append_images(&mut self, images: &Images<D>, walls: usize) {
         let total = walls + images.len() + 1;
         let Self { normal, depth, velocity, lever, spin, sliding_velocity, smoothness } = self;

@@ -109,7 +109,7 @@ pub(crate) struct MutateArguments {
     /// Only mutations that tests must kill: one for each statement of a paper that rests on tests alone.
     #[arg(long, conflicts_with = "generated")]
     pub(crate) tests: bool,
-    /// Folder to write.
+    /// Output folder.
     #[arg(long, value_name = "DIR", default_value = "reports/mutation")]
     pub(crate) out: PathBuf,
     /// Threads to use [default: all cores].
@@ -140,7 +140,7 @@ pub(crate) struct DrawnArguments {
     /// Run the tests of the solver with mutations that survive all gates.
     #[arg(long)]
     pub(crate) tests: bool,
-    /// Folder to write.
+    /// Output folder.
     #[arg(long, value_name = "DIR", default_value = "reports/mutation-drawn")]
     pub(crate) out: PathBuf,
     /// Threads to use [default: all cores].

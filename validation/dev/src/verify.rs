@@ -91,7 +91,7 @@ fn read(file: Option<&Path>) -> Result<ShortRuns, DevError> {
     Ok(list)
 }
 
-/// The hash over the final states of a short run, simulated on so many threads.
+/// Hash of the final states of a short run on a given number of threads.
 fn state_hash(run: &ShortRun, registry: Registry, threads: u16) -> Result<String, DevError> {
     let changes = Changes { settings: &run.settings, ..Changes::default() };
     in_pool(Some(threads), || {

@@ -27,7 +27,7 @@ pub struct Animation {
 /// One picture of an animation. Single precision is finer than a pixel and halves what a long animation holds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AnimationFrame {
-    /// Title with the time.
+    /// Title, which includes the time.
     pub title: String,
     /// Positions (x, y) in axis units.
     pub points: Vec<[f32; 2]>,

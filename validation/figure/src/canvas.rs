@@ -104,7 +104,7 @@ impl<'a> Canvas<'a> {
         Ok(canvas)
     }
 
-    /// Ends the drawing.
+    /// Finishes the drawing.
     pub(super) fn finish(mut self) -> Result<(), FigureError> {
         self.backend.present().map_err(draw_error)
     }

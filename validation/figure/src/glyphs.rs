@@ -15,7 +15,7 @@ use tiny_skia::{Path, PathBuilder, Transform};
 static REGULAR: LazyLock<Option<Font>> = LazyLock::new(|| Font::new(dejavu::sans::regular()));
 static BOLD: LazyLock<Option<Font>> = LazyLock::new(|| Font::new(dejavu::sans::bold()));
 
-/// A font file, in units of the font.
+/// Font file; lengths are in units of the font.
 pub(super) struct Font {
     letters: Charmap<'static>,
     advances: GlyphMetrics<'static>,

@@ -64,7 +64,7 @@ use std::path::{Path, PathBuf};
 pub struct Axis {
     /// Label with unit, such as `u [m/s]`.
     pub label: String,
-    /// Logarithmic instead of linear.
+    /// Scale, linear or logarithmic.
     pub scale: Scale,
     /// Fixed limits; `None` fits the data.
     pub limits: Option<(f64, f64)>,
@@ -157,7 +157,7 @@ pub struct Panel {
     pub y: Axis,
     /// Bands, drawn first.
     pub bands: Vec<Band>,
-    /// Curves and clouds.
+    /// Curves and point clouds.
     pub series: Vec<Series>,
     /// A particle field, drawn between bands and series.
     pub field: Option<Field>,
@@ -176,7 +176,7 @@ pub struct Figure {
     pub caption: String,
     /// Panels in reading order.
     pub panels: Vec<Panel>,
-    /// Panels a row.
+    /// Panels per row.
     pub columns: usize,
 }
 

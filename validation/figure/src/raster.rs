@@ -61,7 +61,7 @@ pub(super) fn png(sheet: &Pixmap) -> Result<Vec<u8>, FigureError> {
     Ok(file)
 }
 
-/// The colours of pixels in the order in which they come, and the place of each pixel's among them; none of too many colours.
+/// The colours of pixels in the order in which they come, and the place of each pixel's among them; none for too many colours.
 fn indexed(pixels: impl Iterator<Item = Colour>) -> Option<(Vec<Colour>, Vec<u8>)> {
     let (mut places, mut palette) = (HashMap::new(), Vec::new());
     let place = |colour: Colour| {

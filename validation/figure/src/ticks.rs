@@ -22,7 +22,7 @@ pub(super) struct Ticks {
     pub(super) factor: String,
 }
 
-/// Ticks for `range`, about `wanted` of them.
+/// About `wanted` ticks for `range`.
 pub(super) fn ticks(range: Range, scale: Scale, wanted: usize) -> Ticks {
     match scale {
         Scale::Linear => linear(range, wanted.max(2)),

@@ -17,7 +17,7 @@ impl Signal {
         signal_name(self.0).unwrap_or("a signal")
     }
 
-    /// The exit code of a program that it has ended: 128 and its number, as shells have it.
+    /// Exit code of a program that the signal has ended: 128 plus its number, as in shells.
     pub fn exit_code(self) -> u8 {
         u8::try_from(128 + self.0).unwrap_or(u8::MAX)
     }
@@ -68,14 +68,14 @@ pub fn asked() -> Option<Signal> {
     i32::try_from(flags.number.load(Ordering::SeqCst)).ok().map(Signal)
 }
 
-/// Asks for what a signal asks for: for programs that handle signals themselves, as a Python interpreter does.
+/// Requests an interruption as a signal does: for programs that handle signals themselves, such as a Python interpreter.
 pub fn ask() {
     let flags = FLAGS.get_or_init(Flags::default);
     flags.number.store(SIGINT as usize, Ordering::SeqCst);
     flags.asked.store(true, Ordering::SeqCst);
 }
 
-/// Takes it back, once what was to end has ended: the process lives on.
+/// Withdraws the request once its purpose is fulfilled: the process continues.
 pub fn withdraw() {
     if let Some(flags) = FLAGS.get() {
         flags.asked.store(false, Ordering::SeqCst);

@@ -18,9 +18,9 @@ pub struct MeasuredPoints {
 /// Band of measured values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredBand {
-    /// Half of them lie below.
+    /// Median: half of the values lie below.
     pub median: f64,
-    /// Nine tenths lie between these.
+    /// Range that contains nine tenths of the values.
     pub bounds: (f64, f64),
     /// Half of the width of the middle two thirds, a standard deviation.
     pub deviation: f64,
@@ -29,7 +29,7 @@ pub struct MeasuredBand {
 }
 
 impl MeasuredPoints {
-    /// Those of two columns of a shipped table.
+    /// Points of two columns of a shipped table.
     pub(crate) fn read(file: &str, x: &str, y: &str) -> Self {
         read_shipped(file, |table| {
             let (source, confidence) = (table.metadata.source.clone(), table.metadata.confidence);
@@ -39,7 +39,7 @@ impl MeasuredPoints {
 }
 
 impl MeasuredBand {
-    /// The band of values in any order; none of fewer than `fewest`.
+    /// The band of values in any order; none for fewer than `fewest`.
     pub(crate) fn of(values: impl Iterator<Item = f64>, fewest: usize) -> Option<Self> {
         let mut sorted: Vec<f64> = values.collect();
         sorted.sort_by(f64::total_cmp);

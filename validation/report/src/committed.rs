@@ -14,7 +14,7 @@ const KNOWN_FAILURES: &str = "known_failures.toml";
 
 const TIERS: [Tier; 3] = [Tier::Quick, Tier::Paper, Tier::Fine];
 
-/// Whose committed values are meant.
+/// Owner of the committed values.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CommittedValues {
     /// Those of the program's cases.

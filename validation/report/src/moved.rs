@@ -19,7 +19,7 @@ const LEAST: f64 = 0.05;
 pub(super) struct MovedValue {
     /// Key of the metric.
     pub(super) key: MetricKey,
-    /// By how many tolerances `[-]`; infinite for a change of unit or verdict, and for what is gone.
+    /// Change in tolerances `[-]`; infinite for a change of unit or verdict, and for missing values.
     pub(super) tolerances: f64,
     /// Whether it has moved beyond its tolerance.
     pub(super) is_beyond: bool,

@@ -12,7 +12,7 @@ use crate::store::Drawings;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// What a case or study is judged by.
+/// Basis on which a case or study is judged.
 #[derive(Debug)]
 pub struct SingleRun {
     /// Time at which the simulation began.

@@ -43,7 +43,7 @@ const SOURCE: &str = "source: tests/snapshots/main.rs";
 /// Begins the line of a snapshot's heading that names a commit.
 const COMMIT: &str = "commit: ";
 
-/// Whose values a snapshot holds.
+/// Name of the case and tier whose values a snapshot holds.
 pub fn description(case: &str, tier: &str) -> String {
     format!("{case} at the {tier} tier")
 }

@@ -6,7 +6,7 @@ use std::time::Instant;
 /// A count whose number is only usual leaves at least one in so many that are done.
 const AT_LEAST_LEFT: u64 = 10;
 
-/// Progress of things of about equal cost; dropped, it leaves the screen.
+/// Progress of items of about equal cost; it leaves the screen when dropped.
 pub struct CountBar(Display<Counted>);
 
 /// Progress of counted work.
@@ -46,28 +46,28 @@ impl Counted {
 }
 
 impl CountBar {
-    /// A bar for so many things, of which some are done.
+    /// Progress bar for a number of items, some of which are done.
     pub fn new(what: &str, all: usize, done: usize, quiet: bool) -> Self {
         let (what, all, done, begin) = (what.to_owned(), all as u64, done as u64, Instant::now());
         Self(Display::new(Counted { what, doing: String::new(), all, done, usual: 0, before: done, begin }, quiet))
     }
 
-    /// So many are usual in all, though fewer are queued at first.
+    /// Usual total, though fewer are queued at first.
     pub(super) fn plan(&self, usual: usize) {
         self.0.change(|count| count.usual = usual as u64);
     }
 
-    /// So many more are to be done.
+    /// Adds a number of items to do.
     pub(super) fn expect(&self, more: usize) {
         self.0.change(|count| count.all += more as u64);
     }
 
-    /// Shows what is being done.
+    /// Shows the current activity.
     pub fn say(&self, doing: &str) {
         self.0.change(|count| doing.clone_into(&mut count.doing));
     }
 
-    /// One more is done.
+    /// Counts one more finished item.
     pub fn step(&self) {
         self.0.change(|count| count.done += 1);
     }

@@ -32,7 +32,7 @@ pub(super) struct Expectation {
 }
 
 impl Expectation {
-    /// Of the runs of some cases, for a command that is called so.
+    /// Expectation for the runs of some cases, for a command of this name.
     pub(super) fn of(command: &'static str, cases: &[Box<dyn PreparedCase>]) -> Self {
         let of_case = |case: &dyn PreparedCase| -> Vec<ExpectedRun> {
             let run = |run: usize| ExpectedRun {
@@ -88,14 +88,14 @@ impl Expectation {
         wall_time(&runs, threads) + self.cases.iter().map(beside).sum::<f64>()
     }
 
-    /// A run begins.
+    /// Notes that a run begins.
     pub(super) fn started(&self, run: usize) {
         if let Some(time) = self.lock().get_mut(run) {
             time.0 = Some(Instant::now());
         }
     }
 
-    /// A run is done.
+    /// Notes that a run is finished.
     pub(super) fn finished(&self, run: usize) {
         if let Some(time) = self.lock().get_mut(run) {
             time.1 = time.0.map(|begun| begun.elapsed().as_secs_f64());
@@ -137,7 +137,7 @@ impl Expectation {
     }
 }
 
-/// Number of runs and their time `[s]` on so many threads.
+/// Number of runs and their time `[s]` on a given number of threads.
 fn in_words(runs: usize, seconds: f64, threads: usize) -> String {
     let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
     let time = HumanDuration(Duration::from_secs_f64(seconds.clamp(1.0, 1e12)));

@@ -87,23 +87,23 @@ fn refuse_in_junit(words: &[OsString], message: &str) {
     }
 }
 
-/// What a command works with.
+/// Context of a command.
 pub struct Session<'a> {
     /// Cases and studies that the program knows.
     pub registry: Registry,
-    /// Whether nothing but results and errors is said.
+    /// Whether only results and errors are printed.
     pub quiet: bool,
     /// Standard output.
     pub output: &'a mut (dyn Write + Send),
 }
 
 impl Session<'_> {
-    /// Prints, and escapes what would control a terminal.
+    /// Prints a text with control characters escaped.
     pub fn say(&mut self, text: &str) {
         say(self.output, text);
     }
 
-    /// Says on standard error what is being done, unless that is not wanted.
+    /// Prints the current activity on standard error, unless it is suppressed.
     pub fn note(&self, text: &str) {
         if !self.quiet {
             tell(text);
@@ -111,7 +111,7 @@ impl Session<'_> {
     }
 }
 
-/// Acts with logging, signals and standard output as every command has them, and says why it ends where it fails.
+/// Runs a command with the usual logging, signal handling and standard output, and prints the reason of a failure.
 pub fn conduct<E: Display>(
     verbosity: Verbosity,
     registry: Registry,
@@ -255,7 +255,7 @@ fn folder_of(given: Option<&PathBuf>, root: &str, file: &Path) -> PathBuf {
 /// Most threads for each processor.
 const MOST_THREADS: usize = 8;
 
-/// Calls inside a pool of so many threads, or of one a core.
+/// Calls a function in a pool of a given number of threads, or else of one thread per core.
 ///
 /// # Errors
 /// Threads that cannot be started, and the errors of the call.

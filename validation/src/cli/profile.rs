@@ -7,7 +7,7 @@ use std::time::Instant;
 /// Runs that are listed one by one.
 const LISTED: usize = 20;
 
-/// Takes the times of a command's stages.
+/// Timer of a command's stages.
 pub(super) struct StageTimer {
     begun: Instant,
     last: Instant,
@@ -22,7 +22,7 @@ impl StageTimer {
         Self { begun: now, last: now, processor: processor_seconds(), stages: Vec::new() }
     }
 
-    /// A stage is over.
+    /// Notes that a stage is over.
     pub(super) fn over(&mut self, stage: &'static str) {
         let (now, processor) = (Instant::now(), processor_seconds());
         self.stages.push((stage, (now - self.last).as_secs_f64(), processor - self.processor));

@@ -12,13 +12,13 @@ use crate::report::{CaseReport, SingleRun};
 use crate::store::Store;
 use std::io::Write;
 
-/// What a finished run is published with.
+/// Context for publishing a finished run.
 pub(super) struct Publication<'a> {
     pub(super) command: &'a RunArguments,
     pub(super) registry: Registry,
     pub(super) claimed: OutputFolder,
     pub(super) store: &'a Store,
-    /// Whose time is kept; none where the times of these runs do not tell how long others will take.
+    /// Runs whose time is kept; none where these times do not predict those of other runs.
     pub(super) expectation: Option<Expectation>,
     pub(super) profile: StageTimer,
     /// Measurements of which the folder receives copies.

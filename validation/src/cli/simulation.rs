@@ -38,7 +38,7 @@ pub(super) fn estimate(cases: &[Box<dyn PreparedCase>], store: &Store) -> String
     format!("{}all: {}\n{time}\n", lines.collect::<String>(), all.in_words(threads))
 }
 
-/// Says on standard error what the runs of a command are expected to need.
+/// Prints the expected cost of the runs of a command on standard error.
 pub(super) fn announce(
     command: &'static str,
     cases: &[Box<dyn PreparedCase>],
@@ -93,7 +93,7 @@ pub(super) fn simulate(
     simulate_showing(cases, store, quiet, None, expectation)
 }
 
-/// Says what the runs of a command are expected to need, and simulates them with a progress bar.
+/// Prints the expected cost of the runs of a command, and simulates them with a progress bar.
 ///
 /// # Errors
 /// A scene that turns out impossible, or an interruption.

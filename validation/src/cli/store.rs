@@ -11,7 +11,7 @@ use std::time::{Duration, SystemTime};
 const BYTES_PER_GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
 const SECONDS_PER_DAY: f64 = 86_400.0;
 
-/// Lists or prunes.
+/// Lists or deletes stored results.
 pub(super) fn store(command: &StoreArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let policy = StorePolicy::Use;
     let store = command.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));

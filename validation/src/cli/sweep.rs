@@ -9,7 +9,7 @@ use crate::sweep::slurm::{self, SlurmRequest};
 use crate::sweep::{SweepFolder, SweepMonitor, SweepPlan, SweepProgress, SweepRun, gather, run_entry, run_locally};
 use std::path::{Path, PathBuf};
 
-/// Plans, runs, submits or gathers.
+/// Plans, runs, submits or collects a sweep.
 pub(super) fn sweep(command: &SweepArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     match (&command.action, &command.file) {
         (Some(SweepAction::Template), _) => {

@@ -51,7 +51,7 @@ pub(super) static BARS: LazyLock<MultiProgress> =
 /// Number of bars that are shown.
 pub(super) static SHOWN: AtomicUsize = AtomicUsize::new(0);
 
-/// Says something on standard error, a line or more, and escapes what would control a terminal.
+/// Prints one or more lines on standard error, and escapes control characters.
 pub fn tell(text: &str) {
     tell_raw(&escaped_lines(text));
 }
@@ -77,7 +77,7 @@ impl<'a> StandardOutput<'a> {
         Self { to, failure: None }
     }
 
-    /// Whether all was written, or its reader has gone before the end.
+    /// Whether everything was written, or its reader closed the stream before the end.
     pub(super) fn finish(self) -> Result<(), ProgramError> {
         match self.failure {
             Some(error) if error.kind() != ErrorKind::BrokenPipe => Err(ProgramError::unprintable(&error)),
@@ -108,7 +108,7 @@ impl Write for StandardOutput<'_> {
     }
 }
 
-/// Prints, and escapes what would control a terminal.
+/// Prints a text with control characters escaped.
 pub(super) fn say(output: &mut (dyn Write + Send), text: &str) {
     let text = escaped_lines(text);
     print(output, &if console::colors_enabled() { coloured(&text).into() } else { text });

@@ -4,7 +4,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// A thread that does it.
+/// Thread that does the work.
 pub(super) struct Ticker {
     /// Dropped, it ends the thread.
     stop: Option<Sender<()>>,

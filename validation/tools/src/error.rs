@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 /// A sweep, a calibration, a judgement or a comparison that cannot be planned or carried out.
 #[derive(Debug, thiserror::Error)]
 pub enum ToolError {
-    /// Its plan or its data cannot be followed, or a file cannot be read or written.
+    /// Plan or its data cannot be followed, or a file cannot be read or written.
     #[error(transparent)]
     Input(#[from] ParameterError),
-    /// Its folder cannot be used.
+    /// Folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),
     /// A plan, a folder or a program does not give what is needed of it as a whole.

@@ -28,7 +28,7 @@ pub struct ColumnDrag {
     weight: Vec<f64>,
     /// Velocity of the fluid around every node along the bed `[m/s]`.
     fluid: Vec<f64>,
-    /// And across it `[m/s]`.
+    /// Velocity of the fluid around every node across the bed `[m/s]`.
     pub(crate) fluid_lift: Vec<f64>,
     /// Σ β of every fluid particle `[kg/s]`.
     pub hold: Vec<f64>,

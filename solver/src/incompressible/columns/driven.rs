@@ -33,7 +33,7 @@ impl DrivenGrains<2> {
         Ok(Self { scene, fluid: phases.fluid, columns, failed: false })
     }
 
-    /// Takes a step `[s]`; false where a grain has left what the model allows, from then on.
+    /// Takes a step `[s]`; false once a grain has left the range of the model.
     pub fn step(&mut self, time_step: f64) -> bool {
         let Self { scene, fluid, columns, failed } = self;
         let mut advance = || {

@@ -129,7 +129,7 @@ impl<const D: usize> Columns<D> {
         (self.grains.position.clone(), self.grains.velocity.clone(), self.pressed.clone())
     }
 
-    /// Goes on from saved grains.
+    /// Continues from saved grains.
     pub(super) fn restore(&mut self, (position, velocity, pressed): Saved<D>) -> Result<(), ForeignState> {
         ForeignState::check("grains", position.len(), self.grains.len())?;
         ForeignState::check("velocities of grains", velocity.len(), self.grains.len())?;

@@ -70,7 +70,7 @@ impl<const D: usize> LaneList<D> {
         SavedList { stride: self.stride, columns: self.columns.clone(), count: self.count.clone() }
     }
 
-    /// Takes a saved list of so many targets among so many sources.
+    /// Restores a saved list, given its numbers of targets and sources.
     pub(crate) fn restore(&mut self, saved: SavedList, targets: usize, sources: usize) -> Result<(), ForeignState> {
         let SavedList { stride, columns, count } = saved;
         let groups = targets.div_ceil(LANES);

@@ -36,7 +36,7 @@ pub(crate) struct Layers<const D: usize> {
 }
 
 impl<const D: usize> Layers<D> {
-    /// Takes saved layers of so many free particles.
+    /// Restores saved layers, given the number of free particles.
     pub(crate) fn restore(&mut self, saved: Self, particles: usize) -> Result<(), ForeignState> {
         ForeignState::check("particles in layers", saved.layer.len(), particles)?;
         let inside = saved.layer.iter().filter(|&&layer| (layer as usize) < saved.held.len()).count();

@@ -51,7 +51,7 @@ impl<const D: usize> Pairs<D> {
         SavedPairs { stride: *stride, candidate: candidate.clone(), candidates: candidates.clone() }
     }
 
-    /// Takes saved candidates of so many targets among so many sources.
+    /// Restores saved candidates, given their numbers of targets and sources.
     pub(crate) fn restore(&mut self, saved: SavedPairs, targets: usize, sources: usize) -> Result<(), ForeignState> {
         let SavedPairs { stride, candidate, candidates } = saved;
         ForeignState::check("rows of pairs", candidates.len(), targets)?;

@@ -55,7 +55,7 @@ impl<const D: usize> DragExchange<D> {
         (self.of_sediment.save(), self.of_fluid.save())
     }
 
-    /// Takes saved candidates of both sides.
+    /// Restores saved candidates of both sides.
     pub(crate) fn restore(
         &mut self,
         (of_sediment, of_fluid): (SavedPairs, SavedPairs),

@@ -13,7 +13,7 @@ pub struct Search<const D: usize> {
     pub periods: Periods<D>,
     /// Skin over the reach of the fluid's kernel `[-]`.
     skin: f64,
-    /// Those of the last search.
+    /// Layers of the last search.
     pub(crate) layers: Layers<D>,
     pub(crate) searches: u64,
 }
@@ -23,7 +23,7 @@ impl<const D: usize> Search<D> {
         Self { periods: Periods::of(domain), skin, layers: Layers::default(), searches: 0 }
     }
 
-    /// Goes on from the layers of a saved search, the last of so many.
+    /// Continues from the layers of a saved search, given the numbers of particles and searches.
     pub(crate) fn restore(&mut self, saved: Layers<D>, particles: usize, searches: u64) -> Result<(), ForeignState> {
         self.searches = searches;
         self.layers.restore(saved, particles)

@@ -42,7 +42,7 @@ impl<const D: usize> Viscosities<D> {
         }
     }
 
-    /// Goes on from a saved ⟨∇u⟩ `[1/s]`, empty before the first step.
+    /// Continues from a saved ⟨∇u⟩ `[1/s]`, which is empty before the first step.
     pub(crate) fn restore(&mut self, mean_gradient: Vec<Tensor<D>>) -> Result<(), ForeignState> {
         if !mean_gradient.is_empty() {
             ForeignState::check("mean velocity gradients", mean_gradient.len(), self.fluid.len())?;

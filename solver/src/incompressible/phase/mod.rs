@@ -75,7 +75,7 @@ pub struct Phase<const D: usize> {
     pub moment: Vec<f64>,
     /// δ = Σ V (−F) r rᵀ/M − 1 `[-]`: how far the neighbours lie otherwise than evenly all around; 0 at the surface.
     pub anisotropy: Vec<Tensor<D>>,
-    /// Its mean over the neighbours, times the share that gradients of pairs are rid of `[-]`.
+    /// Mean over the neighbours, times the share that gradients of pairs are rid of `[-]`.
     pub mean_anisotropy: Vec<Tensor<D>>,
     /// ∇u, corrected, over free particles `[1/s]`.
     pub velocity_gradient: Vec<Tensor<D>>,

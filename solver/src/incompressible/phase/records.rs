@@ -7,7 +7,7 @@ use crate::vector::Vector;
 /// Fields that a record has at most.
 pub(crate) const FIELDS: usize = 16;
 
-/// Packs positions and what `fill` writes behind them, in records of so many quads.
+/// Packs positions and what `fill` writes behind them, in records of a given number of quads.
 pub(crate) fn pack<const D: usize>(
     records: &mut Vec<[f64; 4]>,
     quads: usize,
@@ -22,7 +22,7 @@ pub(crate) fn pack<const D: usize>(
     }
 }
 
-/// The fields of eight records of so many quads, shape `[fields][8]`; those that there are not are zero.
+/// Fields of eight records of a given number of quads, shape `[fields][8]`; missing fields are zero.
 #[inline(always)]
 pub(crate) fn load<V: Lanes>(records: &[[f64; 4]], quads: usize, indices: &LaneIndices<'_>) -> [V; FIELDS] {
     let mut fields = [V::splat(0.0); FIELDS];

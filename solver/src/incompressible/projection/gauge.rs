@@ -11,7 +11,7 @@ pub(crate) enum Gauge {
 }
 
 impl Gauge {
-    /// Takes the mean out of a field where nothing fixes the level.
+    /// Subtracts the mean from a field where nothing fixes the level.
     pub(crate) fn take_mean_out(self, field: &mut [f64]) {
         if self == Self::Free {
             let mean = field.iter().sum::<f64>() / field.len() as f64;

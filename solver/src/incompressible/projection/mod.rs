@@ -29,7 +29,7 @@ pub struct Projection<const D: usize> {
     /// Pressure of the fluid.
     pub fluid: PressurePoisson<D>,
     pub(super) sediment: PressurePoisson<D>,
-    /// Pressure of a mixture.
+    /// Pressure of the mixture.
     pub mixture: Mixture<D>,
 }
 

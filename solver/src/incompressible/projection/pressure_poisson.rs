@@ -70,7 +70,7 @@ impl<const D: usize> PressurePoisson<D> {
         PressureRows { links, width, own: &mut self.own, diagonal: &mut self.diagonal, held: &mut self.held }
     }
 
-    /// Tells from the filled rows what fixes the level of the pressure.
+    /// Finds in the filled rows what fixes the level of the pressure.
     pub(crate) fn find_gauge(&mut self, phase: &Phase<D>, surface: SurfaceTreatment) {
         let has_surface = match surface {
             SurfaceTreatment::Eliminated => phase.at_surface.contains(&true),

@@ -77,7 +77,7 @@ pub struct Sediment<const D: usize> {
     /// Volume of grains in each free particle over its lattice volume `[-]`, shape `[free particles]`; 1 is a grain that
     /// fills its place.
     pub filling: Vec<f64>,
-    /// Fixed grains `[m]`.
+    /// Positions of fixed grains `[m]`.
     pub wall: Vec<Vector<D>>,
     /// Particle spacing `[m]`.
     pub spacing: f64,

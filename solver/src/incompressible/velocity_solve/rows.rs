@@ -16,7 +16,7 @@ use crate::linear::{Row as Links, Single, single};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
 
-/// A row while it is filled.
+/// A row that is being filled.
 struct Row<'a, 'b> {
     links: &'a mut Links<'b, Single>,
     coupled: f64,

@@ -58,7 +58,7 @@ pub(crate) struct Lattices<const D: usize> {
     /// Cell of every particle, and its place in it, from 0 to 1 along each axis.
     cell: Vec<u32>,
     place: Vec<[f64; D]>,
-    /// Nodes of the finest lattice at the corners of every cell, for so many cells and nodes along the axes.
+    /// Nodes of the finest lattice at the corners of every cell, for given numbers of cells and nodes along the axes.
     node: Vec<[u32; CORNERS]>,
     finest: ([usize; D], [usize; D]),
     /// Contributions of every cell to its corners.

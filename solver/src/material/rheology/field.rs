@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 pub enum FieldBoundary {
     /// The field is zero there.
     Vanishing,
-    /// Its derivative along the normal is zero there.
+    /// Derivative along the normal is zero there.
     NoFlux,
 }
 
@@ -31,18 +31,18 @@ pub enum FieldBoundary {
 pub struct FieldDiffusion {
     /// D, the factor of ∇²f in the law's equation of its field, in the unit of that equation times `[m²]`.
     pub strength: f64,
-    /// At rough walls; at smooth ones and at planes of symmetry there is no flux.
+    /// Boundary condition at rough walls; at smooth walls and symmetry planes the flux is zero.
     pub wall: FieldBoundary,
-    /// At the free surface.
+    /// Boundary condition at the free surface.
     pub surface: FieldBoundary,
 }
 
 /// One number that a law keeps of each particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LawField {
-    /// Its name, as files and pages have it.
+    /// Name, as files and pages have it.
     pub name: &'static str,
-    /// Its unit.
+    /// Unit.
     pub unit: &'static str,
     /// Meaning of the field, in a few words.
     pub description: &'static str,
@@ -85,7 +85,7 @@ pub struct FieldStep<R> {
     pub memory: Memory<R>,
 }
 
-/// What a law with a pore liquid keeps of a particle, by name.
+/// Memory of a particle under a law with a pore liquid, by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoreState<R> {
     /// Pressure of the liquid beyond the hydrostatic one `[Pa]`: the law's field.
@@ -97,7 +97,7 @@ pub struct PoreState<R> {
 }
 
 impl<R: Real> PoreState<R> {
-    /// Its memory beside the field.
+    /// Memory beside the field.
     #[inline(always)]
     pub(super) fn memory(self) -> Memory<R> {
         [self.growth, self.expelled, R::splat(0.0)]
@@ -105,7 +105,7 @@ impl<R: Real> PoreState<R> {
 }
 
 impl<R: Real> FieldStep<R> {
-    /// What is kept, of a law with a pore liquid.
+    /// Memory under a law with a pore liquid.
     #[inline(always)]
     pub fn pore(&self) -> PoreState<R> {
         let [growth, expelled, _] = self.memory;

@@ -6,7 +6,7 @@ use crate::lanes::algebra::{load_tensor, store_tensor};
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::vector::Tensor;
 
-/// A law that is sheared under one pressure a lane `[Pa]`, which loosens with what it dilates.
+/// A law sheared under one pressure `[Pa]` per lane, which decreases as the law dilates.
 pub(super) struct ShearedLaw {
     pub(super) law: Rheology,
     pub(super) pressure: [f64; LANES],

@@ -200,7 +200,7 @@ macro_rules! laws {
         }
 
         impl Rheology {
-            /// Its name, as its `law` key has it.
+            /// Name, as its `law` key has it.
             #[must_use]
             pub fn name(&self) -> &'static str {
                 match *self {
@@ -511,7 +511,7 @@ macro_rules! rheology {
                 }
             }
 
-            /// The law's field in a flow at a shear rate `[1/s]` under a ratio of shear stress and pressure `[-]`; none of a law
+            /// The law's field in a flow at a shear rate `[1/s]` under a ratio of shear stress and pressure `[-]`; none for a law
             /// without.
             #[must_use]
             pub fn field_in_flow(&self, shear_rate: f64, stress_ratio: f64) -> Option<f64> {
@@ -551,7 +551,7 @@ impl Rheology {
         })
     }
 
-    /// Shear stress `[Pa]` that material which has not yet flowed bears at a pressure `[Pa]`; none of a law that carries no stress along.
+    /// Shear stress `[Pa]` that material which has not yet flowed bears at a pressure `[Pa]`; none for a law that carries no stress along.
     #[must_use]
     pub fn strength_at_rest(&self, pressure: f64) -> Option<f64> {
         match self {

@@ -74,7 +74,7 @@ impl NonlocalMuI {
         }
     }
 
-    /// Its limit without cooperation.
+    /// Limit without cooperation.
     #[must_use]
     pub fn local(&self) -> MuI {
         MuI {

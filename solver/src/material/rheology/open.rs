@@ -169,7 +169,7 @@ macro_rules! open_law {
                 self.0.name
             }
 
-            /// Its parameters.
+            /// Parameters.
             #[must_use]
             pub fn parameters(self) -> &'static Parameters {
                 &self.0.parameters

@@ -80,7 +80,7 @@ fn straight_parts(wall: usize, of: &FacetWall<2>) -> Vec<Part> {
 }
 
 impl Part {
-    /// Its line, drawn out by `reach` `[m]` at free ends on a plane of the domain.
+    /// Line, drawn out by `reach` `[m]` at free ends on a plane of the domain.
     fn drawn_out(&self, domain: &Domain<2>, reach: f64) -> Facet<2> {
         let [start, end] = self.line.corners;
         let along = (end - start).normalize() * reach;

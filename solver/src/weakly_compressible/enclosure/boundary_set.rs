@@ -74,9 +74,9 @@ impl<const D: usize> BoundarySet<D> {
 /// Planes normal to the axes beyond which a particle has left; infinite where a side is not open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exits<const D: usize> {
-    /// Below the flow, one an axis `[m]`.
+    /// Planes below the flow, one per axis `[m]`.
     pub lower: Vector<D>,
-    /// Above it `[m]`.
+    /// Planes above the flow, one per axis `[m]`.
     pub upper: Vector<D>,
 }
 
@@ -115,7 +115,7 @@ pub struct Outflow<const D: usize> {
 /// Outflow through each side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OutflowBySide<const D: usize> {
-    /// By the lower and the upper side of the first axis, then of the next, shape `[2 D]`.
+    /// Outflow by the lower and the upper side of the first axis, then of the next, shape `[2 D]`.
     pub sides: Vec<Outflow<D>>,
 }
 

@@ -42,7 +42,7 @@ pub(crate) struct BoundaryState<const D: usize> {
     pub(super) rim_speeds: Vec<f64>,
     /// Dummy particles at the start of each that turns.
     pub(super) turning: Vec<Vec<BackingParticle<D>>>,
-    /// The facet wall of every particle in the arrays; none of the flow.
+    /// The facet wall of every particle in the arrays; none for the flow.
     pub(super) owners: Vec<u32>,
     /// Impulses of a step, block by block.
     pub(super) blocks: Vec<WallImpulse<D>>,
@@ -197,7 +197,7 @@ impl<const D: usize> BoundaryState<D> {
 }
 
 impl<const D: usize> Books<D> {
-    /// Checks the rows that inlets have set free into a flow of so many particles. Returns how many particles there were in all.
+    /// Checks the rows that inlets have released into a flow, given its number of particles. Returns the number of all particles.
     ///
     /// # Errors
     /// Rows of other inlets than these.

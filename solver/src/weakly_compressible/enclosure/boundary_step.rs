@@ -16,7 +16,7 @@ use crate::weakly_compressible::passes::shell_impulse::{self, Booking, NO_OWNER,
 use crate::weakly_compressible::walls::Images;
 
 impl<const D: usize> BoundaryState<D> {
-    /// Takes out the particles that have left the domain by an open side, at a time `[s]`.
+    /// Removes the particles that have left the domain by an open side, at a time `[s]`.
     pub(crate) fn release(&mut self, particles: &mut Particles<D>, model: &Model<D>, time: f64) {
         let Self { exits, gone, books, .. } = self;
         if *exits == Exits::default() {
@@ -61,7 +61,7 @@ impl<const D: usize> BoundaryState<D> {
         }
     }
 
-    /// Room for the impulses of a step on a flow of so many particles. Without facet walls every block still has a slot.
+    /// Room for the impulses of a step on a flow with a number of particles. Without facet walls every block still has a slot.
     pub(crate) fn booking(&mut self, flow: usize) -> Booking<'_, D> {
         let walls = self.walls.len();
         self.blocks.resize(flow.div_ceil(BLOCK) * walls.max(1), WallImpulse::none());

@@ -10,7 +10,7 @@ const ROUNDING: f64 = 1e-9;
 /// A segment between two corners, or a triangle of three.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Facet<const D: usize> {
-    /// Its corners `[m]`.
+    /// Corners `[m]`.
     pub corners: [Vector<D>; D],
     /// Unit normal into the flow `[-]`.
     pub normal: Vector<D>,

@@ -33,7 +33,7 @@ pub(super) struct Touch<'a, const D: usize> {
     pub(super) walls: &'a [FacetWall<D>],
     /// Grids to find their facets by, wall by wall.
     pub(super) grids: &'a [FacetGrid<D>],
-    /// Pose of each.
+    /// Pose of each wall.
     pub(super) poses: &'a [Pose<D>],
     /// Mean velocity `[m/s]` and rate `[rad/s]` of each in the step.
     pub(super) velocities: &'a [(Vector<D>, f64)],

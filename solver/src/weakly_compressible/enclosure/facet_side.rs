@@ -63,7 +63,7 @@ pub(super) struct Tied<const D: usize> {
 }
 
 impl<const D: usize> Tied<D> {
-    /// None yet, at a distance `[m]`.
+    /// No facet yet, at a distance `[m]`.
     pub(super) fn at(least: f64) -> Self {
         let (way, depth) = (Vector::zeros(), f64::INFINITY);
         let (beyond_a_rim, behind_one, on_a_face) = (false, false, false);
@@ -86,7 +86,7 @@ impl<const D: usize> Tied<D> {
         }
     }
 
-    /// What they say, by the sum of their normals, each times its angle; `is_open` tells whether they leave a gap around the nearest point.
+    /// Side given by the sum of their normals, each times its angle; `is_open` is true if they leave a gap around the nearest point.
     pub(super) fn side(self, sum: Vector<D>, is_open: impl FnOnce() -> bool) -> FacetSide {
         let cancel = sum.norm() < TIE;
         let behind = if cancel { self.behind_one } else { self.way.dot(&sum) < 0.0 };

@@ -64,7 +64,7 @@ impl TurnedBox {
     }
 }
 
-/// Directions along the longest edge of a triangle, across it, and normal to it `[-]`; none of a segment.
+/// Directions along the longest edge of a triangle, across it, and normal to it `[-]`; none for a segment.
 fn directions(triangle: &Triangle) -> Option<Tensor<3>> {
     let [a, b, c] = longest_first(*triangle);
     let along = (b - a).try_normalize(0.0)?;

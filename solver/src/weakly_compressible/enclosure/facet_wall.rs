@@ -26,7 +26,7 @@ pub struct BackingParticle<const D: usize> {
     pub normal: Vector<D>,
     /// Depth behind the plane of its facet `[m]`.
     pub depth: f64,
-    /// Its share of the space behind the facet wall `[m^D]`.
+    /// Share of the space behind the facet wall `[m^D]`.
     pub volume: f64,
 }
 
@@ -37,9 +37,9 @@ pub struct Motion<const D: usize> {
     pub times: Vec<f64>,
     /// Displacements `[m]` at these times, as many.
     pub displacements: Vec<Vector<D>>,
-    /// Turn, before it is displaced.
+    /// Turn of the wall, applied before its displacement.
     pub turn: Option<WallTurn<D>>,
-    /// Load, under which it moves freely.
+    /// Load under which the wall moves freely.
     pub load: Option<WallLoad<D>>,
 }
 
@@ -90,7 +90,7 @@ impl<const D: usize> Motion<D> {
 pub struct FacetWall<const D: usize> {
     /// Name in messages and results.
     pub name: String,
-    /// Its facets at the start, with the flow on the side of their normals.
+    /// Facets at the start, with the flow on the side of their normals.
     pub facets: Vec<Facet<D>>,
     /// Rough or smooth.
     pub roughness: Surface,

@@ -103,7 +103,7 @@ impl FeedRate {
         self.rates[row] + self.slope(row) * (time - self.times[row])
     }
 
-    /// Its integral from time 0 on `[kg]`, without an error that grows.
+    /// Integral from time 0 on `[kg]`, without an error that grows.
     #[must_use]
     pub fn mass(&self, time: f64) -> f64 {
         let (first, last) = self.ends();

@@ -133,13 +133,13 @@ impl<const D: usize> Inlet<D> {
         self.rate.mass(time) / (self.density * self.area)
     }
 
-    /// Distance of the next row's middle beyond the opening at a time, after so many rows `[m]`; negative before it has reached the
+    /// Distance of the next row's middle beyond the opening at a time, after a number of rows `[m]`; negative before it has reached the
     /// opening.
     pub(crate) fn beyond(&self, time: f64, fed: u64) -> f64 {
         self.travel(time) - (fed as f64 + 0.5) * self.depth
     }
 
-    /// Displacement of the rows' surface from the opening at a time, after so many rows `[m]`.
+    /// Displacement of the rows' surface from the opening at a time, after a number of rows `[m]`.
     pub(crate) fn displacement(&self, time: f64, fed: u64) -> Vector<D> {
         self.direction() * (self.travel(time) - fed as f64 * self.depth)
     }
@@ -151,7 +151,7 @@ impl<const D: usize> Inlet<D> {
         FacetWall { name, facets, roughness: Surface::Rough, motion: Motion::default() }
     }
 
-    /// Dummy particles of so many rows, as deep as walls are; the first are the row that comes next.
+    /// Dummy particles of a number of rows, as deep as walls; the first row is the one to be fed next.
     pub(crate) fn backing(&self, rows: usize) -> Vec<BackingParticle<D>> {
         let (normal, volume) = (self.direction(), self.area * self.depth / self.cells.len() as f64);
         let row = |row: usize| {
@@ -227,14 +227,14 @@ pub struct InflowRow {
 /// Inflow through all inlets.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Inflow<const D: usize> {
-    /// Inlet by inlet.
+    /// Masses, inlet by inlet.
     pub inlets: Vec<InletMass<D>>,
     /// Row by row, in the order in which they became free.
     pub rows: Vec<InflowRow>,
 }
 
 impl<const D: usize> Inflow<D> {
-    /// Nothing yet, of so many inlets.
+    /// Empty state of a number of inlets.
     pub(crate) fn none(inlets: usize) -> Self {
         let momentum = Vector::zeros();
         let fed = InletMass { rows: 0, particles: 0, mass: 0.0, mass_times_time: 0.0, momentum, energy: 0.0 };

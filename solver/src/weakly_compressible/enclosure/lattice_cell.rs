@@ -15,7 +15,7 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// A place in it, by whole numbers below [`SAMPLES`] along the edges.
+    /// A place in the triangle, by whole numbers below [`SAMPLES`] along the edges.
     pub(super) fn sample(&self, at: [usize; 3]) -> Vector<3> {
         let offset = |k: usize| (at[k] as f64 + 0.5) / SAMPLES as f64 - 0.5;
         self.middle + self.edges[0] * offset(0) + self.edges[1] * offset(1) + self.edges[2] * offset(2)

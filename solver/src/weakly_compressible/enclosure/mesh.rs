@@ -93,7 +93,7 @@ pub(super) struct Frame {
     pub(super) origin: Vector<3>,
     /// Directions along its longest edge and across it `[-]`.
     pub(super) along: [Vector<3>; 2],
-    /// Lengths along them `[m]`.
+    /// Lengths along these directions `[m]`.
     pub(super) lengths: [f64; 2],
     /// Normal into the flow `[-]`.
     pub(super) normal: Vector<3>,

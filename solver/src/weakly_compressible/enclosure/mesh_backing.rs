@@ -79,7 +79,7 @@ struct Laying<'a> {
 
 /// Piece of a cell that belongs to one owner.
 struct Piece {
-    /// Its centroid `[m]`.
+    /// Centroid `[m]`.
     place: Vector<3>,
     /// `[m³]`.
     volume: f64,

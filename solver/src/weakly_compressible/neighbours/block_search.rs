@@ -6,10 +6,10 @@ use crate::vector::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Particles a block of the parallel loops.
+/// Particles per block of the parallel loops.
 pub(crate) const BLOCK: usize = 256;
 pub(super) const GROUPS: usize = BLOCK / LANES;
-/// Neighbours that a row of the list can hold.
+/// Largest number of neighbours in a row of the list.
 pub(crate) const LARGEST_ROW: usize = 1024;
 
 /// Place and number of a group's chunks.
@@ -39,7 +39,7 @@ pub(super) struct Search<'a, const D: usize> {
     pub(super) sentinel: u32,
 }
 
-/// For a number of lanes the mask of so many first ones.
+/// Masks of the first N lanes, for each N.
 static FIRST_LANES: [u32; LANES + 1] = {
     let mut masks = [0; LANES + 1];
     let mut lane = 0;

@@ -107,7 +107,7 @@ impl<const D: usize> CellGrid<D> {
         (UNITS * (1.0 + 4.0 * f64::from(f32::EPSILON))).powi(2)
     }
 
-    /// Sorts so many entries by cell; `member` tells which particle an entry is.
+    /// Sorts a number of entries by cell; `member` returns the particle of an entry.
     pub(crate) fn sort(&mut self, positions: &[Vector<D>], entries: usize, member: impl Fn(usize) -> usize + Sync) {
         // taken out while the cells of particles are asked for
         let (mut order, mut index) = (std::mem::take(&mut self.order), std::mem::take(&mut self.index));

@@ -21,7 +21,7 @@ pub(crate) struct NeighbourGroup<'a> {
     pub(crate) flow: LaneChunks<'a>,
     /// Wall neighbours and their images.
     pub(crate) wall: LaneChunks<'a>,
-    /// Both, in this order.
+    /// Both items, in this order.
     pub(crate) pairs: LaneChunks<'a>,
     /// Whether images are among the flow neighbours.
     pub(crate) has_images: bool,
@@ -51,7 +51,7 @@ pub struct VerletList {
 }
 
 impl VerletList {
-    /// Whether the list is that of so many flow and real particles, of all that the arrays hold.
+    /// Whether the list belongs to these numbers of flow particles, real particles and all particles.
     pub(crate) fn belongs_to(&self, flow: usize, real: usize, all: usize) -> bool {
         let groups = flow.div_ceil(LANES) + (real - flow).div_ceil(LANES);
         let is_wall = |chunks: std::ops::Range<usize>| {

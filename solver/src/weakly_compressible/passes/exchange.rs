@@ -13,7 +13,7 @@ pub(super) type Numbers<P, V> = <P as Precision>::Lanes<V>;
 
 /// A quantity that neighbours exchange. In records it stands behind what the density takes.
 pub(super) trait Exchange<V: Lanes, P: Precision, const D: usize>: Sized {
-    /// Its name, by which a record has its length.
+    /// Name, by which a record has its length.
     const KIND: PairDiffusion;
 
     /// Nothing summed yet around eight particles of these records and pressures `[Pa]`.
@@ -45,7 +45,7 @@ pub(super) struct Inputs<'a, const D: usize> {
 
 /// Pair sums of what is exchanged.
 pub(super) struct Exchanged<V, const D: usize> {
-    /// Of the stress ratio's diffusion `[Pa/m²]`.
+    /// Sums of the stress ratio's diffusion `[Pa/m²]`.
     pub(super) stress_ratio: [[V; D]; D],
     pub(super) field: FieldSums<V>,
 }

@@ -34,11 +34,11 @@ pub(super) struct Continuity<P, const D: usize>(PhantomData<P>);
 
 impl<P: Precision, const D: usize> Continuity<P, D> {
     pub(super) const VELOCITY: usize = D + P::VOLUMES;
-    /// Behind it is what the density alone does not take.
+    /// Place of the pressure; behind it are the values that the density alone does not need.
     pub(super) const PRESSURE: usize = Self::VELOCITY + D;
     /// Corrected pressure gradient; of a wall particle the velocity that the continuity of a liquid takes.
     pub(super) const GRADIENT: usize = Self::PRESSURE + 1;
-    /// What neighbours exchange beside.
+    /// Other quantities that neighbours exchange.
     pub(super) const EXCHANGED: usize = Self::GRADIENT + D;
 
     /// Values where this is exchanged: a yielding share and a stress, the field behind them; or a pore pressure and a conductivity.

@@ -44,7 +44,7 @@ impl Extremes {
     }
 }
 
-/// Outputs of the pass over a block.
+/// Outputs of the pass for a block.
 pub(super) struct Output<'a, const D: usize> {
     pub(super) density: &'a mut [f64],
     pub(super) velocity_gradient: &'a mut [Tensor<D>],
@@ -101,7 +101,7 @@ pub(super) struct Advance<'a, const D: usize> {
 /// Eight particles on their way to the next step, with their pair sums and where what follows from these goes.
 pub(super) struct Eight<'a, 'b, V, const D: usize> {
     pub(super) advance: Advance<'a, D>,
-    /// Their places in the block.
+    /// Places of the particles in the block.
     pub(super) places: Range<usize>,
     pub(super) sums: RateSums<V, D>,
     pub(super) out: &'a mut Output<'b, D>,

@@ -25,12 +25,12 @@ pub(crate) struct Records<P: Precision = f64> {
 pub(crate) type LaneRecord<V> = [[V; 4]; QUADS];
 
 impl<P: Precision> Records<P> {
-    /// Empty records of so many values.
+    /// Empty records of a given number of values.
     pub(crate) fn new(values: usize) -> Self {
         Self { quads: values.div_ceil(4), smoothing_length: 0.0, data: Vec::new() }
     }
 
-    /// Fills a record of so many values for every particle; room is kept.
+    /// Fills a record of a given number of values for every particle; allocated memory is kept.
     pub(crate) fn fill(
         &mut self,
         particles: usize,
@@ -54,7 +54,7 @@ impl<P: Precision> Records<P> {
         });
     }
 
-    /// Room for so many quads, with some head room if it is new.
+    /// Room for a number of quads, with some head room if it is new.
     fn reserve(&mut self, needed: usize) {
         if self.data.capacity() < needed {
             self.data.reserve_exact(needed + needed / 8 + 64 - self.data.len());

@@ -54,7 +54,7 @@ pub(super) struct WallPair<V, const D: usize> {
     pub(super) unexplained: [V; D],
 }
 
-/// A group as its walls see it.
+/// A group of particles as walls see it.
 pub(super) struct WallGroup<'a, V, const D: usize> {
     particles: &'a Particles<D>,
     own: FlowPartner<V, D>,
@@ -64,7 +64,7 @@ pub(super) struct WallGroup<'a, V, const D: usize> {
 
 /// Part of a particle's stress that needs no pressure: [`no_slip`] takes it.
 struct ViscousPart<V, const D: usize> {
-    /// Its share of the stress `[-]`: 1 of a liquid, 0 of grains.
+    /// Share of the stress `[-]`: 1 of a liquid, 0 of grains.
     share: V,
     /// That share of s E `[Pa]`.
     stress: [[V; D]; D],

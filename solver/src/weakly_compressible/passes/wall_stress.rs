@@ -12,7 +12,7 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::wall_extrapolation as terms;
 use crate::weakly_compressible::walls::WallTreatment;
 
-/// Wall particles a block of the parallel loops over walls.
+/// Wall particles per block of the parallel loops over walls.
 pub(super) const BLOCK: usize = 64;
 
 /// Pressure `[Pa]`, deviatoric stress `[Pa]` and corrected stress of every wall particle. At a wall that turns, the flow is pulled by gravity less

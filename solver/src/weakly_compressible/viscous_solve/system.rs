@@ -9,7 +9,7 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::records::Records;
 use crate::weakly_compressible::walls::Images;
 
-/// Groups a block of the parallel loops.
+/// Groups per block of the parallel loops.
 pub(super) const GROUPS: usize = BLOCK / LANES;
 
 /// A vector of eight particles.
@@ -34,7 +34,7 @@ pub struct Coefficients<const D: usize> {
     pub(super) inertia: [f64; LANES],
     /// Δt V `[s m^D]`.
     pub(super) impulse_volume: [f64; LANES],
-    /// One over the diagonal of M + Δt K `[1/kg]`.
+    /// Reciprocal of the diagonal of M + Δt K `[1/kg]`.
     pub inverse_diagonal: [f64; LANES],
 }
 

@@ -10,7 +10,7 @@ pub struct Gate {
     pub position: f64,
     /// Coordinate of the gate's lower edge at the start `[m]`.
     pub edge: f64,
-    /// Its height `[m]`.
+    /// Height `[m]`.
     pub height: f64,
     /// Speed at which it is pulled up `[m/s]`.
     pub speed: f64,
@@ -21,7 +21,7 @@ pub struct Gate {
 }
 
 impl Gate {
-    /// Its walls and particles at the flow's spacing `[m]`, in the plane; `first_wall` is the place of its first wall
+    /// Walls and particles at the flow's spacing `[m]`, in the plane; `first_wall` is the place of its first wall
     /// among those of the scene.
     #[must_use]
     pub fn build(&self, spacing: f64, first_wall: usize) -> (Vec<Wall<2>>, Vec<WallParticle<2>>) {

@@ -101,7 +101,7 @@ impl<const D: usize> Sources<'_, D> {
     }
 }
 
-/// Writes the images of the blocks from `first` on, of which there are so many in each.
+/// Writes the images of the blocks from `first` on, given the number of images in each block.
 fn write<const D: usize>(sources: Sources<'_, D>, first: usize, counts: &[usize], out: &mut [Image<D>]) {
     if out.is_empty() {
         return;
@@ -188,7 +188,7 @@ impl<const D: usize> Images<D> {
         self.copy(field, |value, image| image.sign.component_mul(value));
     }
 
-    /// Of numbers, or of what a law keeps: what a mirror leaves as it is.
+    /// Copies to the images values that a mirror leaves unchanged, such as numbers and a law's memory.
     pub(crate) fn copy_scalars<T: Copy + Send + Sync>(&self, field: &mut [T]) {
         self.copy(field, |value, _| *value);
     }

@@ -26,7 +26,7 @@ impl SideWalls {
         self.friction / self.width
     }
 
-    /// The first rule that they break in a scene of so many axes: a scene in space has real walls.
+    /// First rule that side walls break in a scene of two or three axes: a scene in space has real walls.
     #[must_use]
     pub fn problem(&self, axes: usize) -> Option<ParameterProblem> {
         if axes != 2 {

@@ -39,20 +39,20 @@ pub struct DrawnLayer {
     pub closures: Closures,
     /// Steady layer with these closures.
     pub state: LayerState,
-    /// The same bed at rest.
+    /// Layer over the same bed at rest.
     pub rest: LayerState,
 }
 
 /// Layers of drawn closures.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Draws {
-    /// That with the paper's drag, all else as usual.
+    /// The default with the paper's drag.
     pub paper: Option<DrawnLayer>,
     /// The draws, by their number; none without a steady state. A number has the same closures on every slope.
     pub drawn: Vec<Option<DrawnLayer>>,
 }
 
-/// So many draws of closures.
+/// Number of draws of the closures.
 pub(super) fn drawn_closures(own: &Closures, number: usize) -> Vec<Closures> {
     sobol(number, RANGES.len() + 2, 1).iter().map(|point| closures(own, point)).collect()
 }

@@ -69,7 +69,7 @@ pub struct SimilarStream {
     pub lengths: GrainUnits,
 }
 
-/// What the stream follows from.
+/// Quantity that defines the stream.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "given", rename_all = "kebab-case")]
 pub enum LayerStream {

@@ -45,7 +45,7 @@ pub struct TransportPrediction {
     pub smooth_bed_share: f64,
     /// q* with the usual closures `[-]`.
     pub transport: f64,
-    /// Between these lie 95 % of the draws of the closures `[-]`.
+    /// Range that contains 95 % of the draws of the closures `[-]`.
     pub by_closures: (f64, f64),
     /// Draws that have a steady state, and all.
     pub draws: (usize, usize),
@@ -97,7 +97,7 @@ impl BedLoadFlume {
         layer.checked()
     }
 
-    /// The transport, over so many draws of the closures.
+    /// Transport over a number of draws of the closures.
     ///
     /// # Errors
     /// A flume that breaks a rule of the layer, a layer without a steady state, and an interruption.

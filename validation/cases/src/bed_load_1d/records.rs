@@ -79,7 +79,7 @@ impl InputSpread {
         self.ranges.iter().map(|(_, low, high)| (high - low) * (high - low) / 12.0).sum::<f64>().sqrt()
     }
 
-    /// What the ranges are.
+    /// Meaning of the ranges.
     pub(super) fn words(&self) -> String {
         let words = self.ranges.iter().map(|(name, low, high)| format!("{name} {low:.3} to {high:.3}"));
         format!("the value over the range of each input: {}", words.collect::<Vec<_>>().join(", "))

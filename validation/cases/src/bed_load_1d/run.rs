@@ -24,7 +24,7 @@ const NEXT_BELOW: f64 = 0.75;
 /// But not below this: nobody has measured an onset at a tenth of the curve.
 const LOWEST_SCANNED: f64 = 0.1;
 
-/// What a run leaves behind.
+/// Results of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BedLoadLayerObservation {
     /// Profiles of the layer over the depth.
@@ -238,7 +238,7 @@ fn refused(error: LayerError) -> ParameterError {
     }
 }
 
-/// A layer with so many times the Shields number: the slope follows.
+/// A layer with a multiple of the Shields number, from which the slope follows.
 fn scaled(layer: &BedLoadLayer, factor: f64) -> BedLoadLayer {
     let stream = Stream { slope: factor * layer.stream.slope, ..layer.stream };
     BedLoadLayer { stream, ..layer.clone() }

@@ -5,7 +5,7 @@ use bagnold_solver::material::turbulence::{MixingLength, MixingLengthShape, Smag
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What mixes beyond the particles' own motion.
+/// Cause of mixing beyond the particles' own motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TurbulenceClosure {

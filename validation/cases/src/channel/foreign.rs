@@ -5,7 +5,7 @@ use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSch
 use crate::input::FieldError;
 use crate::statistics::{BlockProfile, ProfilePoint};
 
-/// What a run of water over a fixed bed may yield.
+/// Possible data of a run of water over a fixed bed.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[

@@ -85,7 +85,7 @@ pub struct Channel<'a> {
     pub kinematic_viscosity: f64,
     /// Turbulence model of the water.
     pub turbulence: Turbulence,
-    /// What the floor does to the velocity along it.
+    /// Effect of the floor on the velocity along it.
     pub bed: Bed,
     /// Largest random displacement of a fluid particle along each axis, in spacings `[-]`.
     pub jitter: f64,
@@ -97,11 +97,11 @@ pub struct Channel<'a> {
     pub particles: Option<ParticleSet<2>>,
     /// The sediment, if there is one.
     pub sediment: Option<Sediment<2>>,
-    /// How water and sediment share the space.
+    /// Partition of the space between water and sediment.
     pub solid_fraction: SolidFraction,
     /// Numerical scheme of the incompressible model.
     pub numerics: ProjectionNumerics,
-    /// How long it runs.
+    /// Duration of the run.
     pub until: AveragingWindowEnd,
     /// Length of the averaging window `[s]`.
     pub window: f64,
@@ -114,7 +114,7 @@ pub struct Channel<'a> {
 }
 
 impl<'a> Channel<'a> {
-    /// A fluid without viscosity that slips along a level floor, and runs for no time: a case changes what it needs.
+    /// Default channel: an inviscid fluid that slips along a level floor, with zero duration; a case changes what it needs.
     pub fn of(fluid: Lattice, density: f64, gravity: f64, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Self {
         Self {
             fluid,

@@ -45,9 +45,9 @@ impl ChannelSeries {
 /// Momentum along the floor over the averaging window, of all phases, per metre of width.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct MomentumBalance {
-    /// At its beginning `[kg/s]`.
+    /// Momentum at the beginning of the window `[kg/s]`.
     pub before: f64,
-    /// At its end `[kg/s]`.
+    /// Momentum at the end of the window `[kg/s]`.
     pub after: f64,
     /// Impulse of the body force `[kg/s]`.
     pub driven: f64,
@@ -56,7 +56,7 @@ pub struct MomentumBalance {
 }
 
 impl MomentumBalance {
-    /// What is not accounted for, over the impulse of the body force `[-]`.
+    /// Momentum without a known cause, over the impulse of the body force `[-]`.
     pub fn residual(&self) -> f64 {
         (self.after - self.before - self.driven - self.held) / self.driven
     }
@@ -73,11 +73,11 @@ pub struct ChannelObservation {
     pub profile: BlockProfile,
     /// Momentum over the window.
     pub momentum: MomentumBalance,
-    /// When the criterion was met `[s]`.
+    /// Time at which the criterion was met `[s]`.
     pub stationary_since: Option<f64>,
     /// Particles that ended outside: of the fluid, those below the floor or above twice the depth.
     pub particles_lost: usize,
-    /// Iterations a step of the implicit velocities and of the pressure; none of another program.
+    /// Iterations a step of the implicit velocities and of the pressure; none for another program.
     pub iterations: [Option<f64>; 2],
     /// Largest amplitude of the longest wave along the period in the velocity along the floor, over its depth mean `[-]`.
     pub longest_wave: f64,
@@ -148,7 +148,7 @@ impl ChannelProbe {
         self.stationarity.reached.is_some()
     }
 
-    /// Sees a step; true where it was a sample.
+    /// Observes a step; true where it was a sample.
     pub(super) fn observe(&mut self, simulation: &IncompressibleSimulation<2>) -> bool {
         let time = simulation.time();
         if simulation.steps() == 0 {

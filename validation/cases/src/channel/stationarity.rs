@@ -24,7 +24,7 @@ pub(super) struct Stationarity {
     /// g i `[m/s²]`.
     acceleration: f64,
     pub(super) marks: Vec<StationaritySample>,
-    /// When the criterion was met `[s]`.
+    /// Time at which the criterion was met `[s]`.
     pub(super) reached: Option<f64>,
 }
 

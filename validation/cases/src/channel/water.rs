@@ -32,7 +32,7 @@ pub struct Water {
 }
 
 impl Water {
-    /// Water as deep as in the bed-load paper, of so many rows and as few columns as are quick.
+    /// Water as deep as in the bed-load paper, with a given number of rows and few columns, so that it is quick.
     pub(crate) fn of_rows(resolution: usize) -> Self {
         Self {
             depth: 0.046,

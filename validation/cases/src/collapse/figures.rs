@@ -319,7 +319,7 @@ fn pictures<const D: usize>(run: &ColumnFlow<D>, frames: &[Frame]) -> Figure {
     .in_columns(2)
 }
 
-/// What is drawn of a picture: values, label, limits.
+/// Field drawn in a picture: values, label, limits.
 pub(crate) type DrawnField = (Vec<f64>, &'static str, (f64, f64));
 
 /// Particles of a picture in the colours of a field, of a round heap the slice beside a symmetry plane, in a unit of length `[m]`.

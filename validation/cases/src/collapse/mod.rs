@@ -19,7 +19,7 @@ use crate::case::Flow;
 use crate::observation::Recorded;
 use crate::output::Table;
 
-/// A run with what it left behind.
+/// A run with its results.
 pub(super) type CollapseRecord<const D: usize> = (ColumnFlow<D>, Recorded<Collapse>);
 
 /// Tables of one run: the deposit and the time series.

@@ -7,7 +7,7 @@ use crate::input::FieldError;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
-/// What a layer's run may yield.
+/// Possible data of a layer's run.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[
         ExternalColumn::new("x", "m", "place along the slope, anywhere within the period"),
@@ -158,7 +158,7 @@ pub(crate) fn series(given: &ExternalData) -> TimeSeries {
     }
 }
 
-/// Nothing was measured: two times without a number, so that a history can be asked for.
+/// No measurement: two times without a value, so that a history exists.
 pub(crate) fn unmeasured() -> LayerObservation {
     let nothing = || vec![f64::NAN; 2];
     LayerObservation {

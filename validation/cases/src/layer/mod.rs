@@ -36,7 +36,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// What bounds a layer above.
+/// Boundary above a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Top {
@@ -49,7 +49,7 @@ pub enum Top {
 /// A layer and how it is run. Lengths in `[m]`, angles in `[rad]`, SI units throughout.
 #[derive(Clone)]
 pub struct Layer<'a> {
-    /// Its size, its particles and their numerics.
+    /// Size, its particles and their numerics.
     pub layer: PeriodicLayer,
     /// Slope θ `[rad]`; `slope_angle` is the same in degrees, as files and messages give it.
     pub inclination: f64,
@@ -57,7 +57,7 @@ pub struct Layer<'a> {
     pub reference_density: f64,
     /// Bulk modulus K `[Pa]`.
     pub bulk_modulus: f64,
-    /// What is above it.
+    /// Boundary above the layer.
     pub top: Top,
     /// Whether it starts as compressed as its weight makes it at rest, or without pressure.
     pub compressed: bool,

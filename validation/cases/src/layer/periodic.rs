@@ -29,7 +29,7 @@ pub struct PeriodicLayer {
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
-    /// What happens before the start.
+    /// Preparation before the start.
     pub preparation: Preparation,
     /// Numerical scheme of the weakly compressible model.
     pub numerics: Numerics,

@@ -9,7 +9,7 @@ use bagnold_solver::weakly_compressible::simulation::Simulation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What happens before the start.
+/// Preparation before the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Preparation {

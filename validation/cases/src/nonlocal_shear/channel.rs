@@ -16,7 +16,7 @@ use bagnold_solver::weakly_compressible::walls::{SideWalls, Wall};
 /// Bulk modulus over the largest pressure `[-]`.
 pub const STIFFNESS: f64 = 50.0;
 
-/// How grains move at a height at the start.
+/// Initial motion of the grains at a height.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Motion {
     /// Velocity along the walls `[m/s]`.
@@ -57,7 +57,7 @@ pub enum UpperBoundary {
 pub struct Channel<'a> {
     /// Particles of the channel.
     pub grains: ChannelGrains,
-    /// Their law.
+    /// Law of the grains.
     pub rheology: Rheology,
     /// Distance of the walls, or of the surface from the wall `[m]`.
     pub width: f64,
@@ -65,7 +65,7 @@ pub struct Channel<'a> {
     pub gravity: [f64; 2],
     /// Pressure at a height `[Pa]`.
     pub pressure: &'a (dyn Fn(f64) -> f64 + Sync),
-    /// What is there.
+    /// Boundary above the grains.
     pub above: UpperBoundary,
     /// The motion at a height `[m]` at the start.
     pub start: &'a (dyn Fn(f64) -> Motion + Sync),
@@ -82,7 +82,7 @@ impl Channel<'_> {
         self.grains.columns as f64 * self.spacing()
     }
 
-    /// Its grains between pressure and density.
+    /// Grains between pressure and density.
     pub fn equation_of_state(&self) -> EquationOfState {
         let most = (self.pressure)(0.0).max((self.pressure)(self.width));
         EquationOfState {

@@ -10,7 +10,7 @@ pub(super) const CELLS: usize = 2000;
 pub struct ExactShear {
     /// Stresses of the exact flow.
     pub shear: NonlocalShear,
-    /// Its profile over the distance from where it flows fastest.
+    /// Profile over the distance from where it flows fastest.
     pub profile: NonlocalShearProfile,
 }
 

@@ -26,7 +26,7 @@ const HASTE: f64 = 1.1;
 /// Largest friction of a chute's walls, or below a plate, over μ_2 `[-]`: there the shear rate has no bound.
 pub(super) const MOST_FRICTION: f64 = 0.999;
 
-/// What shears the grains.
+/// Cause of the shear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Drive {
@@ -272,7 +272,7 @@ impl NonlocalShearFlow {
         flow.steady(&grains)
     }
 
-    /// Its particles.
+    /// Particles.
     pub fn particles(&self) -> ChannelGrains {
         let Self { columns, jitter, seed, numerics, .. } = *self;
         let rows = (self.width() / self.diameter() * self.particles_per_diameter as f64).round() as usize;

@@ -7,7 +7,7 @@ use crate::statistics::mean;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
-/// What a run leaves behind.
+/// Results of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ShearObservation {
     /// Times of the series `[s]`.
@@ -16,11 +16,11 @@ pub struct ShearObservation {
     pub mean_velocity: Vec<f64>,
     /// The rows from below, over the last part of the run: mean heights `[m]`.
     pub height: Vec<f64>,
-    /// Their velocities `[m/s]`.
+    /// Velocities of the rows `[m/s]`.
     pub velocity: Vec<f64>,
-    /// Their pressures `[Pa]`, as they bear on the walls.
+    /// Pressures of the rows `[Pa]`, as they act on the walls.
     pub pressure: Vec<f64>,
-    /// Their shear stresses s_xy `[Pa]`, likewise.
+    /// Shear stresses s_xy of the rows `[Pa]`, as they act on the walls.
     pub shear_stress: Vec<f64>,
     /// Mass over volume `[kg/m³]`.
     pub density: f64,
@@ -99,7 +99,7 @@ impl ShearProbe {
         }
     }
 
-    /// What was seen. The mean stress of a volume is Σ V σ over it, with the volumes m/ρ by which particles act on each other.
+    /// Observed data. The mean stress of a volume is Σ V σ over it, with the volumes m/ρ by which particles act on each other.
     /// Displaced particles have a few parts in a thousand more of that than there is room, as sums over displaced neighbours are not
     /// consistent with constants: their stresses bear on the walls by as much more than their own values say.
     pub(super) fn finish(self) -> ShearObservation {

@@ -132,7 +132,7 @@ impl Probe {
         Ok(Ending::of(stop, last_good, started).record(&simulation, |_| observation))
     }
 
-    /// Sees a step; true where it was a sample.
+    /// Observes a step; true where it was a sample.
     fn observe(&self, seen: &mut SettlingObserver, simulation: &IncompressibleSimulation<2>) -> bool {
         let [momentum, force, weight] = momentum(simulation);
         let (before, step) = (seen.momentum, simulation.time() - seen.time);

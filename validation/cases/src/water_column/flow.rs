@@ -31,7 +31,7 @@ const BED_END: f64 = 6.0;
 /// Observations a run.
 const SAMPLES: f64 = 400.0;
 
-/// How a column is let go.
+/// Release of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Release {
@@ -67,9 +67,9 @@ pub struct WaterColumnFlow {
     pub resolution: usize,
     /// Surface of the bed.
     pub surface: Surface,
-    /// What becomes of a negative pressure.
+    /// Treatment of a negative pressure.
     pub tension: Tension,
-    /// How it is let go.
+    /// Kind of release.
     pub release: Release,
     /// Speed at which a gate is lifted `[m/s]`.
     #[schemars(transform = positive("give it in m/s, such as 4.53"))]
@@ -162,7 +162,7 @@ impl Flow for WaterColumnFlow {
     }
 }
 
-/// What a run leaves behind; every array has the shape `[samples]`.
+/// Results of a run; every array has the shape `[samples]`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ColumnObservation {
     /// Times over √(a/(2g)) `[-]`.
@@ -176,7 +176,7 @@ pub struct ColumnObservation {
 }
 
 impl WaterColumnFlow {
-    /// Whether a gate lets it go.
+    /// Whether a lift gate releases it.
     pub(super) fn is_gated(&self) -> bool {
         self.release == Release::Gate
     }

@@ -5,7 +5,7 @@ use super::metrics::{DELAYED_FRONT_ERROR, DELAYED_HEIGHT_ERROR, FRONT_DELAY, FRO
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
 
-/// What a run may yield.
+/// Possible data of a run.
 pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Each error through the tests that it names.
+/// Runs each error through the tests that it names.
 pub(super) fn findings(
     errors: &[&Mutation],
     mutations: &Mutations,

@@ -143,7 +143,7 @@ impl TestTarget {
 /// A test program of the copy.
 #[derive(Debug, Clone)]
 pub struct TestProgram {
-    /// Its target.
+    /// Target.
     pub target: TestTarget,
     /// The program.
     pub path: PathBuf,

@@ -23,7 +23,7 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// The draw of a seed: with the same sources the same.
+    /// Draw of a seed, which depends on the seed and the sources only.
     ///
     /// # Errors
     /// A source that cannot be read, or is no Rust.
@@ -68,8 +68,8 @@ impl Draw {
         taken
     }
 
-    /// Builds a copy with the first so many mutations that compile: their places, and the program, which knows them by their numbers in
-    /// this list, from 1. What does not compile is rejected, and the next in the order takes its place.
+    /// Builds a copy with the first N mutations that compile; returns their places and the program, which numbers them as in that list,
+    /// from 1. What does not compile is rejected, and the next in the order takes its place.
     ///
     /// # Errors
     /// Files that cannot be written, and errors of the compiler that no mutation is near to.
@@ -154,7 +154,7 @@ fn culprits<'a>(tree: &Path, list: &[Mutation], errors: impl Iterator<Item = &'a
 /// A case without an error: what it says, and which mutations of the draw its runs reach.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct TracedCase {
-    /// Its result without an error.
+    /// Result without an error.
     pub right: MutantRun,
     /// Places in the order of the draw.
     pub reached: BTreeSet<usize>,

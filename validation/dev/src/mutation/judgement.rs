@@ -60,7 +60,7 @@ pub struct MutationOutcome {
     pub catch: Detection,
     /// Values that moved beyond their snapshot tolerance, came or went.
     pub drifted: usize,
-    /// The first of them, a sentence; empty where there is none.
+    /// First of them, as a sentence; empty without any.
     pub first_drift: String,
     /// Wall time of its runs `[s]`.
     pub wall_seconds: f64,
@@ -69,7 +69,7 @@ pub struct MutationOutcome {
 /// One case with and without the error. A case that did not end has no sighting but a reason.
 pub type MutationComparison<'a> = (&'a Scope, &'a MutantRun, Result<MutantRun, String>);
 
-/// Judges what the cases of an error said, each with what it says without.
+/// Judges the output of the cases with an error, each against its output without the error.
 pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> MutationOutcome {
     let (mut broken, mut stops, mut drifts, mut wall_seconds) = (Vec::new(), Vec::new(), Vec::new(), 0.0);
     for (scope, right, wrong) in comparisons {

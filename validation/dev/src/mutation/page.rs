@@ -80,7 +80,7 @@ fn rows(findings: &[MutationOutcome], last: (&str, impl Fn(&MutationOutcome) -> 
     heads + &findings.iter().map(line).collect::<String>()
 }
 
-/// A drawn mutation in a line: place, rule, right → wrong, who noticed, seconds.
+/// A drawn mutation in one line: place, rule, right → wrong, what detected it, seconds.
 pub fn drawn_line(finding: &MutationOutcome) -> String {
     let (word, witness) = (word(&finding.catch), witness(finding));
     format!("{}; {word}: {witness} ({:.1} s)", finding.error.description, finding.wall_seconds)

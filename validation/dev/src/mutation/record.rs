@@ -15,7 +15,7 @@ pub const FILE: &str = "validation/dev/mutations.toml";
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mutation {
-    /// Its name on the command line and in results.
+    /// Name on the command line and in results.
     pub name: String,
     /// Description of the error, half a sentence.
     pub description: String,
@@ -71,7 +71,7 @@ impl SourceReplacement {
 }
 
 impl Mutations {
-    /// Reads them from a checkout.
+    /// Reads the mutations from a checkout.
     ///
     /// # Errors
     /// A file that cannot be read or typed, or two of the same name.
@@ -91,7 +91,7 @@ impl Mutations {
         Self { settings: BTreeMap::new(), list }
     }
 
-    /// All of them, in the file's order.
+    /// All entries, in the file's order.
     pub fn iter(&self) -> impl Iterator<Item = &Mutation> {
         self.list.iter()
     }
@@ -111,7 +111,7 @@ impl Mutations {
         mutation.cases.iter().map(|case| self.scope(case)).collect()
     }
 
-    /// A case, cut to what matters.
+    /// A case, reduced to what matters.
     pub fn scope(&self, case: &str) -> Scope {
         Scope { case: case.to_owned(), settings: self.settings.get(case).cloned().unwrap_or_default() }
     }

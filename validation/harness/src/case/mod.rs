@@ -111,7 +111,7 @@ pub trait Case: Sync + 'static {
     const AXES_BY_RUNS: bool = false;
     /// Data that the case accepts for a run from an external code, besides single numbers.
     const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema::NUMBERS;
-    /// Its flows.
+    /// Flows.
     type Flow: Flow;
 
     /// Judges the observations.

@@ -41,7 +41,7 @@ static ALL: [ErrorSeries; 5] = [
 ];
 
 impl ErrorSeries {
-    /// The series of a name.
+    /// Series with this name.
     pub(super) fn find(name: &str) -> Option<&'static Self> {
         ALL.iter().find(|series| series.name == name)
     }
@@ -51,7 +51,7 @@ impl ErrorSeries {
         format!("{}-{factor}", self.name)
     }
 
-    /// A control for each of its errors. No gate is meant for one: all are asked which is the smallest that they reject.
+    /// A negative control for each of its errors. No gate is meant for one: all are asked which is the smallest that they reject.
     pub(super) fn controls(&self) -> impl Iterator<Item = Control> {
         self.factors.iter().map(|factor| Control {
             name: self.error(*factor),

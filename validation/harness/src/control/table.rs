@@ -35,7 +35,7 @@ pub struct TriedControls {
 }
 
 impl TriedControls {
-    /// These trials, by this program's solver.
+    /// Table of these trials by this program's solver.
     pub fn by_this_program(trials: &[ControlTrial]) -> Self {
         let (solver_hash, commit) = (provenance::solver_hash().to_owned(), provenance::commit().to_owned());
         let entry = |trial: &ControlTrial| (trial.control.name.clone(), (trial.found.clone(), trial.diverged));

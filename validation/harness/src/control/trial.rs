@@ -25,7 +25,7 @@ pub struct Found {
     pub variant: Variant,
     /// Value, in the metric's unit; NaN for one that is not measured.
     pub value: f64,
-    /// Against its gate; none for a metric that the control does not have.
+    /// Verdict of its gate; none for a metric that the control does not have.
     pub verdict: Option<Verdict>,
 }
 
@@ -36,7 +36,7 @@ pub struct ControlTrial {
     pub control: Control,
     /// All numbers that its runs were to give.
     pub found: Vec<Found>,
-    /// Whether a run diverged that is not meant to: none of its numbers counts.
+    /// Whether a run diverged unexpectedly: none of its numbers counts then.
     pub diverged: bool,
     /// The commit of the solver that it was tried at, where that is another than the program's.
     pub tried_at: Option<String>,

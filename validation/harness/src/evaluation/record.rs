@@ -72,7 +72,7 @@ impl EvaluationRecord {
         }
     }
 
-    /// A record without numbers.
+    /// A record without values.
     pub fn failed(key: &str, case: &str, reason: &str) -> Self {
         Self { key: key.to_owned(), case: case.to_owned(), failure: Some(reason.to_owned()), ..Self::default() }
     }

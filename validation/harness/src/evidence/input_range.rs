@@ -16,7 +16,7 @@ pub enum Basis {
 }
 
 impl Basis {
-    /// For a reader.
+    /// Text for a reader.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Stated => "stated",
@@ -33,7 +33,7 @@ pub enum Spread {
     /// The input.
     #[default]
     Value,
-    /// Its logarithm: of an input that is known to a factor.
+    /// Logarithm: of an input that is known to a factor.
     Logarithm,
 }
 

@@ -67,7 +67,7 @@ pub struct NumberColumn {
     pub name: String,
     /// Unit, from the brackets.
     pub unit: String,
-    /// One value a row, in that unit.
+    /// Values, one per row, in that unit.
     pub values: Vec<f64>,
 }
 
@@ -200,7 +200,7 @@ impl MeasuredData {
             .collect()
     }
 
-    /// A label column whose labels are numbers or `open`, which stands for infinity: the upper ends of ranges.
+    /// A label column of upper ends of ranges: numbers, or `open` for infinity.
     pub fn upper_ends(&self, column: &str) -> Result<Vec<f64>, FieldError> {
         let end = |label: &String| match label.as_str() {
             "open" => Ok(f64::INFINITY),

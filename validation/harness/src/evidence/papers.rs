@@ -33,7 +33,7 @@ pub struct Element {
     /// Statement of the element.
     #[serde(rename = "says")]
     pub statement: String,
-    /// The file that has it, from the root of the workspace; none where nothing does.
+    /// File that holds it, from the root of the workspace; none without one.
     pub implemented: Option<String>,
     /// Tests that hold it, `path/of/file.rs::function`, from the root of the workspace.
     #[serde(default)]

@@ -35,9 +35,9 @@ pub struct SensitivityRow {
     pub repeat: usize,
     /// Name of the metric.
     pub quantity: String,
-    /// Its variant with all inputs at their own values.
+    /// Variant with all inputs at their own values.
     pub variant: Variant,
-    /// Its value there, in the metric's unit.
+    /// Value there, in the metric's unit.
     pub value: f64,
     /// The reference's value there, which may depend on inputs as well, in the metric's unit.
     pub reference: f64,

@@ -56,7 +56,7 @@ pub struct StatedPart {
     pub relative: Option<f64>,
     /// Standard uncertainty in the metric's unit.
     pub absolute: Option<f64>,
-    /// Basis of the number.
+    /// Evidence for the number.
     pub basis: Basis,
     /// Source of the number.
     pub source: String,
@@ -109,7 +109,7 @@ fn concerns(quantities: &[String], variant: &Variant, metric: &Metric) -> bool {
 }
 
 impl StatedUncertainty {
-    /// That of a case; none where nothing is stated.
+    /// Statement of a case; none where nothing is stated.
     ///
     /// # Panics
     /// If the file that the program carries is malformed, which a test would find.

@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 
 include!(concat!(env!("OUT_DIR"), "/comparisons.rs"));
 
-/// Quantities that are the way of a front from where it stood.
+/// Quantities that are the distance of a front from its start.
 pub const WAY_OF_FRONT: [&str; 2] = ["run_out", "front_displacement"];
 
 /// One comparison of a prediction with a reference.
@@ -47,7 +47,7 @@ pub struct ValidatedComparison {
 }
 
 impl ValidatedComparison {
-    /// That of a metric, with the regime of the run that it speaks of; none of what is not compared.
+    /// That of a metric, with the regime of the run that it speaks of; none for what is not compared.
     fn of(case: &str, metric: &Metric, runs: &[(Variant, FlowRegime)]) -> Option<Self> {
         let reference = metric.compared_with().filter(|_| metric.value.is_finite())?;
         // the run that shares most with it: a run of which it shares nothing is not its own
@@ -74,7 +74,7 @@ impl ValidatedComparison {
         })
     }
 
-    /// All of a case.
+    /// All numbers of a case.
     pub fn all(case: &str, metrics: &[Metric], runs: &[(Variant, FlowRegime)]) -> Vec<Self> {
         metrics.iter().filter_map(|metric| Self::of(case, metric, runs)).collect()
     }
@@ -131,7 +131,7 @@ impl ValidationSet {
         Ok(Self { comparisons: rows })
     }
 
-    /// Its text.
+    /// Text.
     ///
     /// # Errors
     /// A row that cannot be written.

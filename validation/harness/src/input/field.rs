@@ -50,19 +50,19 @@ impl FieldError {
         Self::new(&format!("{table}.{}", error.end), error.value, &error.rule, error.remedy)
     }
 
-    /// Says that the field is part of a group of fields.
+    /// Marks the field as part of a group of fields.
     pub fn within(mut self, group: &str) -> Self {
         self.field = format!("{group}.{}", self.field);
         self
     }
 
-    /// Says in which file the field stands, unless its origin is already known.
+    /// Adds the file of the field, unless its origin is already known.
     pub fn in_file(mut self, path: &Path) -> Self {
         self.origin.get_or_insert_with(|| Origin::File(path.to_owned()));
         self
     }
 
-    /// Says that a `--set` gives the field.
+    /// Notes that a `--set` gives the field.
     pub fn set_by(mut self, argument: String) -> Self {
         self.origin = Some(Origin::Setting(shortened(argument)));
         self

@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-/// The number of a value, whole or not; none of another type.
+/// The number of a value, whole or not; none for another type.
 pub fn number_in(value: &Value) -> Option<f64> {
     value.as_float().or(value.as_integer().map(|whole| whole as f64))
 }

@@ -18,7 +18,7 @@ pub const DOCUMENT: u64 = 1 << 27;
 /// Largest file of a program's own results: a stored run with its snapshots, the manifest of a sweep `[bytes]`.
 pub const STORED: u64 = 1 << 32;
 
-/// A text file of at most so many bytes. Links are followed: whoever names a file may name it by a link.
+/// Reads a text file of at most a number of bytes. Links are followed: a file may be named by a link.
 pub fn read_text(path: &Path, most: u64) -> Result<String> {
     let bytes = read_bytes(path, most)?;
     // what some editors and spreadsheets call Unicode begins with a mark of two bytes
@@ -35,7 +35,7 @@ pub fn read_own(path: &Path, most: u64) -> Result<Vec<u8>> {
     read_bytes(path, most)
 }
 
-/// Any file of at most so many bytes. Links are followed.
+/// Reads any file of at most a number of bytes. Links are followed.
 pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>> {
     let file = open_file(path)?;
     let too_large = || Error::new(ErrorKind::FileTooLarge, format!("is larger than {} MiB", most >> 20));

@@ -10,7 +10,7 @@ use std::path::Path;
 pub struct TextTable {
     /// Headings, or `1`, `2`, … where the file has none.
     pub headings: Vec<String>,
-    /// Column by column.
+    /// Values, column by column.
     pub columns: Vec<Vec<f64>>,
 }
 
@@ -77,7 +77,7 @@ pub struct TableRows<'t> {
     pub heading: Option<(usize, Vec<&'t str>)>,
     /// Words of the last comment above the rows.
     comment: Vec<&'t str>,
-    /// As many words in each.
+    /// Rows, each with its line number and as many words.
     pub rows: Vec<(usize, Vec<&'t str>)>,
 }
 

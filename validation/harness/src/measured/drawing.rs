@@ -4,7 +4,7 @@ use super::Measurements;
 use super::place::MatchingPanel;
 use crate::figure::{Figure, Mark, Series};
 
-/// Bars along the horizontal axis are lines of their own; so many at most, or a figure is nothing but bars.
+/// Largest number of bars along the horizontal axis, each a separate line: more would fill the figure.
 const MOST_BARS: usize = 400;
 
 /// Draws them into their panel, in a colour of their own.

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// Measurements of one quantity over another, with a standard uncertainty each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// Their file.
+    /// File of the measurements.
     pub path: PathBuf,
     /// Text of the copy that a folder of results keeps.
     pub text: String,

@@ -43,7 +43,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Its word in files.
+    /// Word in files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Pass => "pass",
@@ -182,7 +182,7 @@ pub struct Metric {
     pub variant: Variant,
     /// Value of the metric in its unit.
     pub value: f64,
-    /// Its unit, `-` for none, `%` for percent.
+    /// Unit, `-` for none, `%` for percent.
     pub unit: String,
     /// Reference that the value is compared with, if any.
     pub reference: Option<Reference>,
@@ -243,7 +243,7 @@ impl Metric {
         width.zip(self.uncertainty.of(&[Origin::Numerical])).is_some_and(|(width, spacing)| COVERAGE * spacing > width)
     }
 
-    /// Makes its gate, if it has one, one that the user states.
+    /// Marks its gate, if it has one, as stated by the user.
     pub fn of_user(mut self) -> Self {
         if let Some(gate) = &mut self.gate {
             gate.owner = GateOwner::User;
@@ -296,12 +296,12 @@ impl Metric {
         reference.value.filter(|value| is_from_outside && value.is_finite())
     }
 
-    /// Adds where the true value lies, if that can be told.
+    /// Adds the interval of the true value, if it is known.
     pub fn predicted(self, prediction: Option<PredictionInterval>) -> Self {
         Self { prediction, ..self }
     }
 
-    /// Lets a page open with it.
+    /// Puts the metric at the top of its page.
     pub fn leading(mut self) -> Self {
         self.leads = true;
         self

@@ -41,7 +41,7 @@ impl Quantity {
         Self { name, unit, kind: MetricKind::Validation, description }
     }
 
-    /// Its observed metric for a run, in the quantity's unit; the metric's methods add reference and gate.
+    /// Observed metric for a run, in the quantity's unit; the metric's methods add reference and gate.
     pub fn of(&self, variant: &Variant, value: f64) -> Metric {
         Metric::observed(self.name, variant, value, self.unit).of_kind(self.kind)
     }

@@ -59,14 +59,14 @@ pub struct PredictionInterval {
     /// Relative standard uncertainty by inputs that it holds, root mean square of those comparisons `[-]`; none where it is not known.
     #[serde(default)]
     pub input_uncertainty: Option<f64>,
-    /// Length `[m]` that a dimensionless value counts; none of others.
+    /// Length `[m]` that a dimensionless value counts; none for others.
     #[serde(default)]
     pub unit_length: Option<f64>,
     /// Quantity of the comparisons.
     pub quantity: String,
     /// The flow's own regime.
     pub regime: FlowRegime,
-    /// In what the flow is unlike those that were compared: then the interval is an extrapolation.
+    /// Differences of the flow from those compared, which make the interval an extrapolation.
     pub warnings: Vec<String>,
 }
 

@@ -22,7 +22,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// Its name for a reader.
+    /// Name for a reader.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Experiment => "experiment",
@@ -47,7 +47,7 @@ pub enum ComparisonPart {
 }
 
 impl ComparisonPart {
-    /// All, in the order of a page.
+    /// All entries, in the order of a page.
     pub const ALL: [Self; 3] = [Self::Numerical, Self::Input, Self::Reference];
 
     /// The origins that belong to it.
@@ -129,12 +129,12 @@ impl Uncertainty {
         Some((largest, (largest.standard / all).powi(2)))
     }
 
-    /// Takes away what belongs to a part of a comparison.
+    /// Removes everything that belongs to a part of a comparison.
     pub(crate) fn forget(&mut self, part: ComparisonPart) {
         self.parts.retain(|own| !part.origins().contains(&own.origin));
     }
 
-    /// A part that is known to be nothing.
+    /// A part that is known to be negligible.
     pub(super) fn add_none(&mut self, origin: Origin, source: &str) {
         self.parts.push(UncertaintyComponent { origin, standard: 0.0, source: source.to_owned() });
     }

@@ -22,7 +22,7 @@ pub struct EnergyBook {
     pub entered: (f64, f64),
     /// Absolute work of gravity and of walls, summed over the intervals between samples.
     pub exchanged: (f64, f64),
-    /// Kinetic energy times the time it was there `[J s]`, in two dimensions `[J s/m]`.
+    /// Time integral of the kinetic energy `[J s]`, in two dimensions `[J s/m]`.
     pub motion: f64,
     /// Time `[s]` and kinetic energy at the last sample.
     pub last: (f64, f64),

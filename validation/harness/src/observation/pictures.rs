@@ -13,7 +13,7 @@ const SECONDS_PER_FRAME: f64 = 0.08;
 pub struct View {
     /// Unit of length `[m]`.
     pub unit_length: f64,
-    /// Its symbol, such as `r0`; `m` where it is a metre.
+    /// Symbol, such as `r0`; `m` where it is a metre.
     pub unit: &'static str,
     /// √(h_0/g) `[s]`.
     pub time_scale: f64,
@@ -44,7 +44,7 @@ impl View {
         (self.axis("x", x), self.axis("y", y))
     }
 
-    /// The time in seconds, with so many decimals, and in times of free fall.
+    /// Time in seconds, with a given number of decimals, and in free-fall times.
     fn clock(&self, time: f64, decimals: usize) -> String {
         format!("t = {time:.decimals$} s = {:.2} √(h0/g)", time / self.time_scale)
     }

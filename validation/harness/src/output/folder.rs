@@ -37,7 +37,7 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Makes sure that the folder may be written, before any time is spent on what goes into it.
+    /// Checks that the folder may be written before any simulation starts.
     ///
     /// # Errors
     /// A folder with foreign files, one that another command writes, or one that cannot be made or written, such as a link
@@ -67,7 +67,7 @@ impl OutputFolder {
         std::fs::create_dir(&self.staging)
     }
 
-    /// Whether a folder is ours.
+    /// Whether a folder was written by this program.
     pub fn is_one(folder: &Path) -> bool {
         folder.join(MARKER).is_file()
     }

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::{Component, Path};
 
-/// Says that a folder is Bagnold's, and which of its entries are.
+/// Name of the file that marks a folder as Bagnold's and lists the entries that it wrote.
 pub(super) const MARKER: &str = OWN_PREFIX;
 
 const MARKER_TITLE: &str = "Written by bagnold, which replaces these entries the next time:";

@@ -52,7 +52,7 @@ impl States {
         Self { runs: (0..case.run_count()).map(run).collect() }
     }
 
-    /// Takes the states of the run of that number.
+    /// Returns the receiver of the states of the run with this number.
     pub fn run(&self, run: usize) -> Option<&dyn StateOutput> {
         self.runs.get(run).map(|run| run as &dyn StateOutput)
     }

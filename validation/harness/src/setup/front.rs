@@ -14,9 +14,9 @@ const PARALLEL: f64 = 1e-3;
 /// A line along which material reaches up to where less than a section stands across it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrontLine<const D: usize> {
-    /// Its start `[m]`.
+    /// Start `[m]`.
     pub from: Vector<D>,
-    /// Its end `[m]`.
+    /// End `[m]`.
     pub to: Vector<D>,
     /// The section: in the plane a thickness `[m]`, in space an area `[m²]`.
     pub section: f64,

@@ -8,7 +8,7 @@ use bagnold_solver::vector::Vector;
 pub struct Lattice {
     /// Edge of a cell `[m]`.
     pub spacing: f64,
-    /// Rows above each other.
+    /// Rows of particles above each other.
     pub rows: usize,
     /// Columns along the period.
     pub columns: usize,

@@ -42,7 +42,7 @@ pub fn between(field: &str, value: f64, lower: f64, upper: f64, remedy: &str) ->
     Err(ParameterError::field(field, value, &format!("between {} and {}", shown(lower), shown(upper)), remedy))
 }
 
-/// A number of things in [least, most].
+/// A count in [least, most].
 pub fn count(field: &str, value: usize, least: usize, most: usize, remedy: &str) -> Result<(), ParameterError> {
     if (least..=most).contains(&value) {
         return Ok(());

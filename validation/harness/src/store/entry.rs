@@ -18,7 +18,7 @@ pub(crate) fn read<R: DeserializeOwned>(path: &Path, key: &str) -> Result<Option
     read_bytes(path, key)?.map(|record| postcard::from_bytes(&record).map_err(Error::other)).transpose()
 }
 
-/// The same for a record that is bytes.
+/// Reads a key's record, as bytes, in the same way.
 ///
 /// # Errors
 /// As for [`read`].
@@ -34,7 +34,7 @@ pub(crate) fn write<R: Serialize>(path: &Path, key: &str, record: &R) -> Result<
     write_bytes(path, key, &postcard::to_stdvec(record).map_err(Error::other)?)
 }
 
-/// The same for a record that is bytes.
+/// Writes a key's record of bytes in the same way.
 pub(crate) fn write_bytes(path: &Path, key: &str, record: &[u8]) -> Result<()> {
     RECORD.write(path, key, record)
 }

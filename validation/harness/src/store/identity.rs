@@ -22,12 +22,12 @@ pub struct CodeOrigin {
 }
 
 impl CodeOrigin {
-    /// In a crate that the hash of the sources knows nothing of.
+    /// Origin in a crate that the hash of the sources does not include.
     pub const ELSEWHERE: Self = Self { is_elsewhere: true };
-    /// In the packages whose sources the program declares.
+    /// Origin in the packages whose sources the program declares.
     pub const PACKAGE: Self = Self { is_elsewhere: false };
 
-    /// That of several cases together: elsewhere, if any of them stands there.
+    /// Origin of several cases together: elsewhere, if any of them is.
     pub fn and(self, other: Self) -> Self {
         if self == Self::PACKAGE { other } else { self }
     }

@@ -26,7 +26,7 @@ pub struct Version {
     pub entries: usize,
     /// Number of runs that have checkpoints and no entry yet.
     pub unfinished: usize,
-    /// Size of them all `[bytes]`.
+    /// Total size `[bytes]`.
     pub bytes: u64,
     /// Time at which its newest file was written.
     pub newest: SystemTime,
@@ -46,7 +46,7 @@ pub struct RetentionPolicy {
 pub struct Pruned {
     /// Number of entries, checkpoints and drawings.
     pub files: usize,
-    /// Size of them all `[bytes]`.
+    /// Total size `[bytes]`.
     pub bytes: u64,
 }
 
@@ -72,7 +72,7 @@ pub fn versions(root: &Path) -> Result<Vec<Version>> {
     Ok(versions)
 }
 
-/// Deletes what is not to stay, the oldest first, and folders that become empty. Only entries of the store are touched.
+/// Deletes entries beyond the limits, the oldest first, and folders that become empty. Only entries of the store are touched.
 ///
 /// # Errors
 /// A folder that cannot be read or an entry that cannot be deleted.
@@ -157,7 +157,7 @@ pub(super) fn folders_in(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(folders.map(|entry| entry.path()).collect())
 }
 
-/// Deletes the folders among some but the newest so many. Best effort: another program may have been faster.
+/// Deletes all but the newest N of some folders. Best effort: another program may have been faster.
 pub(super) fn keep_newest(folders: impl IntoIterator<Item = PathBuf>, most: usize) {
     let age = |folder: PathBuf| Some((folder.metadata().and_then(|data| data.modified()).ok()?, folder));
     let mut folders: Vec<_> = folders.into_iter().filter_map(age).collect();

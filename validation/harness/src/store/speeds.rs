@@ -41,7 +41,7 @@ pub struct Speeds {
 }
 
 impl Speeds {
-    /// A run took so many seconds of one core, and was expected to take `nominal`.
+    /// Records that a run took a number of seconds of one core and was expected to take `nominal`.
     pub fn learn(&mut self, case: &str, variant: &Variant, nominal: f64, taken: f64) {
         if nominal > 0.0 && nominal.is_finite() && taken > 0.0 && taken.is_finite() {
             let runs = &mut self.cases.entry(case.to_owned()).or_default().runs;
@@ -88,7 +88,7 @@ impl Speeds {
 pub struct AllSpeeds(BTreeMap<String, Speeds>);
 
 impl AllSpeeds {
-    /// Those of a store; none where there is no file, or one that cannot be understood: they are measured again.
+    /// Speeds of a store; none where its file is missing or unreadable, so that they are measured again.
     pub fn read(root: &Path) -> Self {
         read_text(&root.join(FILE), DOCUMENT).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
     }

@@ -119,7 +119,7 @@ impl IntervalSide {
         self.radius = if miss <= FAIR { f64::INFINITY } else { factor * self.outwards(region, point) };
     }
 
-    /// The end as found.
+    /// End of the interval as found.
     pub(super) fn judge(&self, region: &Region, history: &[Evaluated]) -> IntervalEnd {
         let bracket = self.bracket(region, history);
         let reached = bracket.inside.map_or(0.0, |(distance, _)| distance);

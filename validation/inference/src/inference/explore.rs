@@ -34,7 +34,7 @@ const EDGE: [f64; 2] = [0.8, 1.25];
 pub struct Explored {
     /// The emulator of the points in and about the region.
     pub emulator: Emulator,
-    /// Its region, with the intervals that the model has decided.
+    /// Region, with the intervals that the model has decided.
     pub region: Region,
     /// Lower and upper end of every parameter's interval.
     pub ends: Vec<[IntervalEnd; 2]>,

@@ -19,7 +19,7 @@ pub enum Spacing {
 pub struct BoundsError {
     /// The bound that is wrong: `lower` or `upper`.
     pub end: &'static str,
-    /// Its value, in the parameter's unit.
+    /// Value, in the parameter's unit.
     pub value: f64,
     /// The rule that it breaks, completing "must be …".
     pub rule: String,

@@ -22,7 +22,7 @@ impl Random {
         self.generator.random::<f64>()
     }
 
-    /// One of 0 … `count` − 1.
+    /// Random integer of 0 … `count` − 1.
     pub fn index(&mut self, count: usize) -> usize {
         ((self.uniform() * count as f64) as usize).min(count.saturating_sub(1))
     }

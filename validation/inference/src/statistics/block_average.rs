@@ -35,7 +35,7 @@ const LARGEST_CORRELATION: f64 = 0.999;
 pub struct Average {
     /// The value.
     pub value: f64,
-    /// Its standard error, in the value's unit; not a number where leaving out a block leaves no value.
+    /// Standard error, in the value's unit; not a number where leaving out a block leaves no value.
     pub standard_error: f64,
     /// Half width of its 95 % interval, in the value's unit.
     pub half_width: f64,

@@ -36,7 +36,7 @@ pub fn linear_fit(points: &[(f64, f64)]) -> Option<LinearFit> {
 pub struct FittedValue {
     /// The value.
     pub value: f64,
-    /// Its standard error from the scatter about the fit.
+    /// Standard error from the scatter about the fit.
     pub standard_error: f64,
 }
 
@@ -65,7 +65,7 @@ pub fn common_slope(groups: &[Vec<(f64, f64)>]) -> Option<FittedValue> {
 pub struct Exponent {
     /// n in y = c xⁿ `[-]`.
     pub value: f64,
-    /// Its standard error from the scatter about the line `[-]`; not a number with two points.
+    /// Standard error from the scatter about the line `[-]`; not a number with two points.
     pub standard_error: f64,
     /// c in y = c xⁿ, in the unit of y over that of xⁿ.
     pub coefficient: f64,

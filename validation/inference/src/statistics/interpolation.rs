@@ -7,7 +7,7 @@ pub enum Extrapolation {
     Nothing,
     /// The value of the end.
     EndValue,
-    /// The line through the two outermost points, for at most so many of their distances `[-]`, and then nothing.
+    /// The line through the two outermost points, up to a multiple of their distance `[-]` beyond, and then nothing.
     Line(f64),
 }
 

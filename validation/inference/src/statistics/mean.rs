@@ -1,6 +1,6 @@
 //! Means, and how far values are from what they should be.
 
-/// Mean of values; not a number of none.
+/// Mean of values; NaN without values.
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }

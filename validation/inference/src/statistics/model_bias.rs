@@ -54,7 +54,7 @@ pub struct ModelBias {
     pub comparisons: usize,
     /// δ: predictions over true values `[-]`.
     pub bias: f64,
-    /// Its 95 % interval `[-]`.
+    /// 95 % interval `[-]`.
     pub interval: (f64, f64),
     /// u: standard deviation of ln(M/E) `[-]`.
     pub scatter: f64,

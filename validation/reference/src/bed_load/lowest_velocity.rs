@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 /// follows the logarithm of the height more closely.
 pub const LOWEST_LAYER_TOP: f64 = 13.0;
 
-/// Its points and the power law through those of the layer of grains.
+/// Points and the power law through those of the layer of grains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LowestVelocity {
     /// (height over the grain diameter, velocity over the friction velocity) `[-]`, upwards.

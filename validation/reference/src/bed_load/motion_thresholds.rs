@@ -31,7 +31,7 @@ pub static MOTION_THRESHOLDS: LazyLock<MeasuredPoints> = LazyLock::new(|| {
 });
 
 /// The band of the thresholds from experiments with grains within a factor of two of a dimensionless diameter `[-]`, Shields
-/// numbers `[-]`; none of too few.
+/// numbers `[-]`; none for too few.
 pub fn thresholds_about(dimensionless_diameter: f64) -> Option<MeasuredBand> {
     let range = dimensionless_diameter / SAME_SIZE..=dimensionless_diameter * SAME_SIZE;
     let own = MOTION_THRESHOLDS.points.iter().filter(|point| range.contains(&point.0));

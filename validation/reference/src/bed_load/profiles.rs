@@ -6,7 +6,7 @@ use crate::input::FieldError;
 use crate::one_dimension::bed_load::Stream;
 use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 
-/// Whose layer.
+/// Authors of the measured layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeasuredBedLoad {
     /// Grains of 6 mm and density 2.5 on a slope of 0.05, simulated one by one.
@@ -25,9 +25,9 @@ pub struct BedLoadProfiles {
     pub solid_fraction: HeightProfile,
     /// Velocity of the grains, of the sheet flow that of both phases `[m/s]`.
     pub grain_velocity: HeightProfile,
-    /// Velocity of the water `[m/s]`; none of the sheet flow's own.
+    /// Velocity of the water `[m/s]`; none for the sheet flow's own.
     pub fluid_velocity: HeightProfile,
-    /// −⟨u'w'⟩ of the water `[m²/s²]`; none of the grain simulation.
+    /// −⟨u'w'⟩ of the water `[m²/s²]`; none for the grain simulation.
     pub turbulent_stress: HeightProfile,
     /// Standard deviation of its points about the line through their neighbours `[m²/s²]`; NaN without any.
     pub stress_scatter: f64,
@@ -41,7 +41,7 @@ impl MeasuredBedLoad {
     /// Both sources of measured or simulated profiles.
     pub const ALL: [Self; 2] = [Self::GrainSimulation, Self::SheetFlow];
 
-    /// Its name in results.
+    /// Name in results.
     pub fn name(self) -> &'static str {
         match self {
             Self::GrainSimulation => "grain-simulation",
@@ -57,7 +57,7 @@ impl MeasuredBedLoad {
         }
     }
 
-    /// Its stream, over a bed of ten grains.
+    /// Stream, over a bed of ten grains.
     pub fn stream(self) -> Stream {
         let water = |slope, flow_depth, grain_density, grain_diameter| Stream {
             slope,
@@ -78,7 +78,7 @@ impl MeasuredBedLoad {
         }
     }
 
-    /// Its profiles.
+    /// Profiles.
     pub fn profiles(self) -> BedLoadProfiles {
         let level = self.level();
         let points = |table: &MeasuredData, name: &str| -> Result<HeightProfile, FieldError> {

@@ -86,7 +86,7 @@ struct FormulaCoefficients {
     exponent: f64,
 }
 
-/// In the order of [`TransportFormula::ALL`].
+/// Coefficients in the order of [`TransportFormula::ALL`].
 static ROWS: LazyLock<Vec<FormulaCoefficients>> = LazyLock::new(|| read_shipped("bed-load/formulas.csv", rows));
 
 fn rows(table: &MeasuredData) -> Result<Vec<FormulaCoefficients>, FieldError> {
@@ -116,7 +116,7 @@ impl TransportFormula {
         (row.coefficient, row.critical, row.exponent)
     }
 
-    /// Its name in the table.
+    /// Name in the table.
     fn key(self) -> &'static str {
         match self {
             Self::MeyerPeterMuller => "meyer-peter-mueller",

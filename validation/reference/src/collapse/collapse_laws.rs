@@ -26,7 +26,7 @@ pub struct CollapseLaw {
     pub source: String,
     /// Confidence in the law.
     pub confidence: Confidence,
-    /// Its branches in ascending order.
+    /// Branches in ascending order.
     pub branches: Vec<Branch>,
 }
 

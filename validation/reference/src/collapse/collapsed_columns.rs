@@ -10,9 +10,9 @@ use std::sync::LazyLock;
 /// A planar pile against a wall at x = 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredPile {
-    /// Its length at first `[m]`.
+    /// Length at first `[m]`.
     pub length: f64,
-    /// Its height at first `[m]`.
+    /// Height at first `[m]`.
     pub height: f64,
     /// Friction angle of its grains `[°]`.
     pub friction_angle: f64,

@@ -73,7 +73,7 @@ impl NonlocalTransient {
         self.velocity.iter().sum::<f64>() / self.velocity.len() as f64
     }
 
-    /// Runs for a time `[s]`.
+    /// Advances the run by a time `[s]`.
     pub(crate) fn advance(&mut self, duration: f64) {
         let density = self.layer.layer.bulk_density();
         let longest = COURANT * self.width / (self.shear_modulus / density).sqrt();

@@ -45,7 +45,7 @@ pub struct SettlingBeads {
     pub rise: FittedValue,
     /// Solid fraction of the suspension with its standard deviation over the height `[-]`.
     pub suspension: FittedValue,
-    /// The same of the deposit.
+    /// Solid fraction of the deposit with its standard deviation over the height `[-]`.
     pub packing: FittedValue,
     /// Source of the measurements.
     pub source: String,

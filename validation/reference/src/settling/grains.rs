@@ -83,7 +83,7 @@ impl SettlingGrains {
         (self.grain_density - self.fluid_density).abs() * self.gravity
     }
 
-    /// What the solver's own settling velocity takes.
+    /// Input of the solver's own settling velocity.
     pub(crate) fn settling(&self) -> Settling {
         Settling {
             submerged_weight: self.submerged_weight(),

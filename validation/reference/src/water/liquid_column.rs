@@ -88,7 +88,7 @@ impl MeasuredFront {
     }
 }
 
-/// That of a column twice as high as wide, from `reference-data/water-column`.
+/// Front of a column twice as high as wide, from `reference-data/water-column`.
 pub static WATER_FRONT: LazyLock<MeasuredFront> = LazyLock::new(|| {
     read_shipped("water-column/front.csv", |table| {
         let points = table.points("time", "front")?;
@@ -97,7 +97,7 @@ pub static WATER_FRONT: LazyLock<MeasuredFront> = LazyLock::new(|| {
     })
 });
 
-/// That of a square column behind a gate; its time in √(H/g) becomes one in √(a/(2g)).
+/// Front of a square column behind a gate, with its time converted from √(H/g) to √(a/(2g)).
 pub static GATED_WATER_FRONT: LazyLock<MeasuredFront> = LazyLock::new(|| {
     read_shipped("water-column/front-gate.csv", |table| {
         let time = table.numbers("time")?.iter().map(|time| time * std::f64::consts::SQRT_2);

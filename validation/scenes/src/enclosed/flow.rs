@@ -105,7 +105,7 @@ pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
-    /// Preparation before the clock starts.
+    /// Preparation before the run starts.
     pub preparation: BodyPreparation,
     /// Root mean square of the speed at which settled bodies count as being at rest, over √(g H) with the scene's height H `[-]`.
     #[schemars(transform = between(1e-6, 0.1, "give 1e-4, which is 0.1 mm/s in a scene 0.1 m high"))]
@@ -136,7 +136,7 @@ pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     #[serde(default, skip_serializing_if = "is_none")]
     #[schemars(transform = between(0.0, 1.0, "give 0 for grains at rest, 1 for liquefied ones"))]
     pub pore_pressure_ratio: f64,
-    /// Walls; what is not held by one falls.
+    /// Walls; material not held by a wall falls.
     pub walls: Vec<S::Wall>,
     /// Openings by which material comes in.
     pub inlets: Vec<S::Inlet>,

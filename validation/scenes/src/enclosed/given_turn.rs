@@ -33,7 +33,7 @@ impl<A> GivenTurn<A> {
         WallTurn { centre, plane, times, angles }
     }
 
-    /// Refuses a turn by both, or by neither.
+    /// Refuses a turn given by both a rate and angles, or by neither.
     pub(crate) fn check(&self) -> Result<(), ParameterError> {
         if self.rate.is_some() == self.angles.is_empty() {
             return Ok(());

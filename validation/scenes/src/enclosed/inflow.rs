@@ -44,7 +44,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         inlet.feed(Supply { spacing: self.spacing, density, rate })
     }
 
-    /// Refuses rates that are none, and openings that they do not pass.
+    /// Refuses rates that are not numbers, and openings that they cannot pass.
     pub(super) fn check_inlets(&self) -> Result<(), ParameterError> {
         for (k, inlet) in self.inlets.iter().enumerate() {
             self.check_inlet(inlet).map_err(|error| error.within(&format!("inlets[{k}]")))?;
@@ -123,7 +123,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         self.feeds().iter().map(|feed| feed.rate.mass(time) / feed.particle_mass()).sum()
     }
 
-    /// Their mean over the run.
+    /// Mean number of fed particles over the run.
     pub(super) fn mean_fed_particles(&self) -> f64 {
         let feeds = self.feeds();
         let at = |time: f64| feeds.iter().map(|feed| feed.rate.mass(time) / feed.particle_mass()).sum::<f64>();

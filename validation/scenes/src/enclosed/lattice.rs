@@ -18,7 +18,7 @@ pub(super) struct SiteLattice<const D: usize> {
 }
 
 impl<const D: usize> SiteLattice<D> {
-    /// The common one: cubes of an edge `[m]` around the origin.
+    /// Common lattice: cubes of an edge `[m]` around the origin.
     pub(super) fn common(spacing: f64) -> Self {
         Self { origin: Vector::zeros(), edges: Vector::repeat(spacing) }
     }
@@ -91,9 +91,9 @@ impl<const D: usize> SiteLattice<D> {
 /// The bodies that are filled from one lattice.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LatticeGroup<const D: usize> {
-    /// Their lattice.
+    /// Lattice of the bodies.
     pub(super) lattice: SiteLattice<D>,
-    /// Their places among all bodies.
+    /// Places of these bodies among all bodies.
     pub(super) bodies: Vec<usize>,
 }
 

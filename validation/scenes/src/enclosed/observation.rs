@@ -97,7 +97,7 @@ pub struct SceneObservation<const D: usize> {
     pub left: Vec<OutflowRecord>,
     /// Inflow, inlet by inlet.
     pub fed: Vec<FedMass>,
-    /// Largest difference of the mass inside and outside from that of the start and of what came in `[kg]`.
+    /// Largest difference between the mass (inside and outside) and the initial plus fed mass `[kg]`.
     pub missing_mass: f64,
     /// Largest impulse that has no cause among gravity, walls, side walls, sides, and what implicit steps leave out `[kg m/s]`.
     pub missing_impulse: f64,
@@ -200,7 +200,7 @@ impl<const D: usize> SceneObservation<D> {
         self.gravity_impulse.max(self.motion_at_start + self.fed.iter().map(|fed| fed.impulse).sum::<f64>())
     }
 
-    /// All the mass that there has been, at the start or by inlets up to the last sample `[kg]`.
+    /// Total mass, of the start and of inlets up to the last sample `[kg]`.
     pub(super) fn whole_mass(&self) -> f64 {
         let begun = if self.mass.is_empty() { f64::NAN } else { self.before.mass };
         begun + self.fed.iter().map(|fed| fed.mass).sum::<f64>()

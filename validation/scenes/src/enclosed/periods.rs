@@ -47,12 +47,12 @@ impl<const D: usize> Periods<D> {
         (end + self.shift(turns), turns)
     }
 
-    /// The way to an image that is so many periods along each axis farther `[m]`.
+    /// Displacement `[m]` to an image that is given numbers of periods away along the axes.
     pub(super) fn shift(&self, turns: [i64; D]) -> Vector<D> {
         Vector::<D>::from_fn(|axis, _| self.0[axis].map_or(0.0, |length| turns[axis] as f64 * length))
     }
 
-    /// Images up to so many periods away to either side along every axis, as ways `[m]`; without periods the one of no way.
+    /// Displacements `[m]` to all images up to a number of periods away on either side; without periods zero alone.
     pub(super) fn images(&self, reach: [i64; D]) -> Vec<Vector<D>> {
         let mut ways = vec![Vector::<D>::zeros()];
         for axis in (0..D).filter(|&axis| self.0[axis].is_some()) {

@@ -21,9 +21,9 @@ const AT_THE_BACK: f64 = 0.2;
 /// A body of grains that collapses along a line.
 struct Column {
     regime: FlowRegime,
-    /// Its height across the line `[m]`.
+    /// Height across the line `[m]`.
     height: f64,
-    /// Its back and its front at the start, from the line's `[m]`.
+    /// Back and its front at the start, from the line's `[m]`.
     back: f64,
     front: f64,
 }

@@ -84,7 +84,7 @@ struct Pictures {
 }
 
 impl Pictures {
-    /// None yet, of which there are to be so many at least over a duration `[s]` of many samples.
+    /// No samples yet, of which there will be at least a given number over a duration `[s]`.
     fn new(duration: f64, interval: f64, least: usize) -> Self {
         let mut period = interval;
         while 2.0 * period * least as f64 <= duration * (1.0 + 1e-9) {
@@ -338,7 +338,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             BodyPreparation::Settled => settling::settled(scene, rest)?,
             BodyPreparation::Stressed => settling::stressed(scene, self.pulls().0, rest)?,
         };
-        tracing::info!("bodies have settled within {elapsed:.4} s, before the clock starts");
+        tracing::info!("bodies have settled within {elapsed:.4} s, before the run starts");
         Ok(scene)
     }
 

@@ -22,7 +22,7 @@ pub(super) struct GaugeSeries<'a, const D: usize> {
     pub(super) measure: Measurand<'a, D>,
     /// Columns of the gauge in tables of results.
     pub(super) columns: Vec<GaugeColumn>,
-    /// Their values, shape `[columns][samples]`.
+    /// Values of the gauges, shape `[columns][samples]`.
     pub(super) values: &'a [Vec<f64>],
     /// Measured series with which its first column is compared.
     pub(super) measured: Vec<&'a MeasuredSeries>,

@@ -23,7 +23,7 @@ pub trait SceneBody<const D: usize>: PlainData {
         (one.inf(&other).sum(), one.sup(&other).sum())
     }
 
-    /// Its area `[m²]` in the plane, its volume `[m³]` in space.
+    /// Area `[m²]` in the plane, its volume `[m³]` in space.
     fn volume(&self) -> f64;
 
     /// Whether it is a box along the axes, so that it fills what [`SceneBody::extent`] gives.
@@ -48,7 +48,7 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// Remedy for a wall that is seen from its back.
     const TURN: &'static str;
 
-    /// Its name, by which gauges and messages call it.
+    /// Name, by which gauges and messages call it.
     fn name(&self) -> &str;
 
     /// Whether material may stand behind it.
@@ -57,7 +57,7 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// The wall for the solver.
     fn facet_wall(&self) -> FacetWall<D>;
 
-    /// Its motion from the start, without that by its load.
+    /// Motion from the start, without that by its load.
     fn motion(&self) -> Motion<D>;
 
     /// Load that moves the wall, if there is one.
@@ -68,7 +68,7 @@ pub trait SceneWall<const D: usize>: PlainData {
         0
     }
 
-    /// Openings of its mesh in words; none of another wall or of a closed mesh. Defects of the mesh are warned of.
+    /// Openings of its mesh in words; none for another wall or of a closed mesh. Defects of the mesh are warned of.
     fn openings(&self) -> Option<String> {
         None
     }
@@ -76,7 +76,7 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// Places that it lies between `[m]`.
     fn hull(&self) -> Vec<Vector<D>>;
 
-    /// Its length or area `[m^(D-1)]`.
+    /// Length or area `[m^(D-1)]`.
     fn measure(&self) -> f64;
 
     /// Refuses a wall that is none at this spacing `[m]`, or in another unit than bodies of this size `[m]`.
@@ -93,13 +93,13 @@ pub trait SceneInlet<const D: usize>: PlainData {
     /// Remedy for an inlet that faces the wrong way.
     const TURN: &'static str;
 
-    /// Its name, by which gauges and messages call it.
+    /// Name, by which gauges and messages call it.
     fn name(&self) -> &str;
 
     /// The rate at which it feeds the flow.
     fn rate(&self) -> GivenRate<'_>;
 
-    /// Its corners `[m]`.
+    /// Corners `[m]`.
     fn corners(&self) -> Vec<Vector<D>>;
 
     /// Lengths of its edges `[m]`.
@@ -127,7 +127,7 @@ pub trait SceneGauge<const D: usize>: PlainData {
     /// `down`.
     fn measure(&self, down: &Vector<D>) -> Measurand<'_, D>;
 
-    /// Its places `[m]`; none of what is measured on a wall.
+    /// Places `[m]`; none for what is measured on a wall.
     fn places(&self) -> Vec<Vector<D>>;
 
     /// Refuses lines and openings without a size, measured by the spacing `[m]`.

@@ -77,7 +77,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         self.relative_square().sqrt()
     }
 
-    /// Its square `[m²/s²]`. Across a plane of symmetry material meets its mirror image.
+    /// Square `[m²/s²]`. Across a plane of symmetry material meets its mirror image.
     fn relative_square(&self) -> f64 {
         let (material, walls) = (self.motions_of_material(), self.motions_of_walls());
         let of_images = self.sides.axes().into_iter().enumerate().flat_map(|(axis, boundary)| {

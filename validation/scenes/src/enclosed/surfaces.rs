@@ -30,7 +30,7 @@ struct FacetSurface<const D: usize> {
 /// The wall that is nearest to a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NearestWall {
-    /// Its place among all.
+    /// Position among all.
     pub(super) wall: usize,
     /// Distance from it `[m]`, negative behind.
     pub(super) distance: f64,

@@ -9,7 +9,7 @@ use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 
-/// One panel a picture, the particles in the colours of their speed and the walls where they stand.
+/// One panel per picture, the particles in the colours of their speed and the walls where they stand.
 pub(super) fn pictures(parameters: &PlaneFlow, frames: &[Frame]) -> Figure {
     let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
     let [x, y] = picture_axes(parameters, frames.iter().flat_map(|frame| &frame.position));

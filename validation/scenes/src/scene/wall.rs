@@ -11,7 +11,7 @@ use bagnold_solver::weakly_compressible::walls::Surface;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// On which side of a polyline the flow is, seen along its points.
+/// Side of a polyline on which the flow is, seen along its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FlowSide {
@@ -127,13 +127,13 @@ impl setting::SceneWall<2> for WallLine {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneSides {
-    /// At small x.
+    /// Side at the smallest x.
     pub left: DomainSide,
-    /// At large x.
+    /// Side at the largest x.
     pub right: DomainSide,
-    /// At small y.
+    /// Side at the smallest y.
     pub bottom: DomainSide,
-    /// At large y.
+    /// Side at the largest y.
     pub top: DomainSide,
 }
 

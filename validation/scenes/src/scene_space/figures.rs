@@ -34,7 +34,7 @@ fn views(parameters: &SpaceFlow) -> [ViewDirection; 2] {
     ]
 }
 
-/// Two panels a picture, the particles in the colours of their speed and the edges of the walls where they stand.
+/// Two panels per picture, the particles in the colours of their speed and the edges of the walls where they stand.
 pub(super) fn pictures(parameters: &SpaceFlow, frames: &[Frame]) -> Figure {
     let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
     let axes = picture_axes(parameters, frames.iter().flat_map(|frame| &frame.position));

@@ -11,7 +11,7 @@ type Corner = [u64; 3];
 pub(super) struct Openings {
     /// Rings of open edges, each by its corners `[m]`.
     pub(super) rings: Vec<Vec<Vector<3>>>,
-    /// Edges along which neighbours are seen from opposite sides.
+    /// Edges whose neighbouring facets are seen from opposite sides.
     pub(super) turned: usize,
 }
 

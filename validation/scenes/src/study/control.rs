@@ -26,7 +26,7 @@ pub(super) struct ControlText {
 }
 
 impl ControlText {
-    /// As a case has it.
+    /// Control in the form that cases have.
     pub(super) fn control(&self) -> Control {
         let set = self.set.iter().map(|(path, value)| format!("{path}={value}")).collect();
         let error = if self.error.is_empty() { self.name.replace(['-', '_'], " ") } else { self.error.clone() };

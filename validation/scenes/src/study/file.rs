@@ -167,7 +167,7 @@ impl CheckText {
 }
 
 impl StudyText {
-    /// Refuses what no case would see.
+    /// Refuses settings that no case would use.
     pub(super) fn check(&self) -> Result<(), FieldError> {
         check_name("study", &self.study)?;
         if !is_file_name(&self.study) {

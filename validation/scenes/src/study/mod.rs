@@ -69,7 +69,7 @@ pub struct Study {
 }
 
 impl Study {
-    /// Reads a file and those that it names.
+    /// Reads a file and the files that it names.
     ///
     /// # Errors
     /// A file that cannot be read or typed, or a field that breaks a rule.
@@ -136,7 +136,7 @@ impl Study {
         Ok(Self { file: file.to_owned(), text, base, checks, changes })
     }
 
-    /// Its name.
+    /// Name.
     pub fn name(&self) -> &str {
         &self.text.study
     }

@@ -175,7 +175,7 @@ impl RunCurve {
         first.or_else(|| self.points.windows(2).find_map(crossing))
     }
 
-    /// Its distance from measured points (abscissa, value, standard uncertainty) within a window, in the curve's units, where it has a
+    /// Distance from measured points (abscissa, value, standard uncertainty) within a window, in the curve's units, where it has a
     /// value. It must go on beyond them all: a run that ends early would else be judged by its beginning, so it is not a number then.
     pub(super) fn distance(&self, measured: &[[f64; 3]], window: (f64, f64), distance: Distance) -> f64 {
         let meant = || measured.iter().filter(|point| point[0] >= window.0 && point[0] <= window.1);

@@ -34,7 +34,7 @@ const TAKEN: &[&str] = &[
     "test",
 ];
 
-/// Whether a crate, and the law or case in it, can be called that.
+/// Whether a name is valid for a crate and for its law or case.
 pub(super) fn check(name: &str, what: &NewCrate) -> Result<(), FieldError> {
     let refused = |rule: &str, remedy: &str| Err(FieldError::new("NAME", format!("{name:?}"), rule, remedy));
     let is_plain = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || "-_".contains(letter);

@@ -14,11 +14,11 @@ const ALWAYS_ALLOWED: f64 = 0.5;
 /// Nominal cost of an evaluation on one core.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvaluationCost {
-    /// At the start of the search `[h]`.
+    /// Cost at the start of the search `[h]`.
     pub start: f64,
-    /// At the cheapest corner of the box `[h]`.
+    /// Cost at the cheapest corner of the box `[h]`.
     pub cheapest: f64,
-    /// At the dearest corner of the box that the cases accept `[h]`.
+    /// Cost at the dearest corner of the box that the cases accept `[h]`.
     pub dearest: f64,
     /// Names and values of the parameters there.
     pub at: String,

@@ -129,7 +129,7 @@ impl DatumText {
         Ok(())
     }
 
-    /// Whether both mean the same measurement.
+    /// Whether both denote the same measurement.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         let same_file = self.file.is_some() && self.file == other.file;
         let same_value = self.value.is_some() && (self.value, &self.source) == (other.value, &other.source);
@@ -176,7 +176,7 @@ impl DatumText {
         Ok(self.value.map(datum).into_iter().collect())
     }
 
-    /// Relative standard deviation of the noise of synthetic data `[-]`; none of data that are given.
+    /// Relative standard deviation of the noise of synthetic data `[-]`; none for data that are given.
     pub(super) const fn noise(&self) -> Option<f64> {
         self.noise
     }

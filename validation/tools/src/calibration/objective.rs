@@ -65,7 +65,7 @@ impl<'a> Objective<'a> {
 }
 
 impl Objective<'_> {
-    /// The answers to questions, in their order, each with every seed where evaluations are repeated.
+    /// Answers to questions, in their order, each with every seed where evaluations are repeated.
     pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Repeated>, ToolError> {
         let repeated: Vec<Vec<Question>> = questions.iter().map(|question| self.with_seeds(question)).collect();
         let mut records = self.ask_each(&repeated.concat())?.into_iter();

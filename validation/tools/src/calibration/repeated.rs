@@ -13,7 +13,7 @@ impl Repeated {
         self.0.iter().find_map(|record| record.failure.as_deref())
     }
 
-    /// With one seed; a case without seeds gives the same with all.
+    /// Record with one seed; a case without seeds gives the same record for all.
     pub(super) fn with_seed(&self, place: usize) -> Option<&EvaluationRecord> {
         self.0.get(place).or_else(|| self.0.first())
     }

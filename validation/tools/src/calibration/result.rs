@@ -25,7 +25,7 @@ pub struct DatumComparison {
     pub residual: f64,
     /// Standard deviation of the model's mean over its seeds, over that of the datum `[-]`; 0 without repeats.
     pub scatter: f64,
-    /// Interval of 95 % of the posterior; none of a bake-off.
+    /// Interval of 95 % of the posterior; none for a bake-off.
     pub predicted: Option<(f64, f64)>,
     /// Standard uncertainty of the prediction by that of the parameters, over that of the datum `[-]`; 0 of fitted data.
     pub spread: f64,
@@ -127,7 +127,7 @@ pub struct ElementaryEffect {
     pub name: String,
     /// Mean size of its elementary effects μ*, in standard uncertainties of a datum a range `[-]`.
     pub effect: f64,
-    /// Their scatter σ, likewise `[-]`.
+    /// Scatter σ of its elementary effects, in the same unit `[-]`.
     pub spread: f64,
 }
 

@@ -17,16 +17,16 @@ pub(super) const CURVE: [&str; 3] = ["law", "inertial_number [-]", "friction [-]
 pub struct ProfileLocation {
     /// Table of the case.
     pub table: String,
-    /// Its column of abscissas, with its unit.
+    /// Column of abscissas, with its unit.
     pub x: String,
-    /// Its column that is compared, with its unit.
+    /// Column that is compared, with its unit.
     pub y: String,
     /// Abscissa of the datum, in the unit of column x.
     pub at: f64,
 }
 
 impl ProfileLocation {
-    /// Its table among others, with the places of its columns.
+    /// Table among others, with the places of its columns.
     pub(super) fn found<'t>(&self, tables: &'t [Table]) -> Result<(&'t Table, usize, usize), String> {
         let table = &self.table;
         let found = tables.iter().find(|other| other.name == *table).ok_or_else(|| {

@@ -56,7 +56,7 @@ impl Difference {
         (change != 0.0).then(|| (change, (first != 0.0).then(|| change / first.abs())))
     }
 
-    /// The same in words, such as `+0.12 (+3.4 %)`.
+    /// Change as text, such as `+0.12 (+3.4 %)`.
     pub fn change_in_words(&self, folder: usize) -> Option<String> {
         let signed = |value: f64| format!("{}{}", if value > 0.0 { "+" } else { "" }, two_digits(value));
         let (change, relative) = self.change(folder)?;

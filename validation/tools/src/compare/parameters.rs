@@ -18,7 +18,7 @@ pub struct ChangedParameter {
     pub case: String,
     /// Dotted path of the parameter, as `--set` takes it; places in lists in brackets.
     pub path: String,
-    /// Its value in every folder as TOML; none where the folder has no such parameter.
+    /// Value in every folder as TOML; none where the folder has no such parameter.
     pub values: Vec<Option<String>>,
 }
 

@@ -27,9 +27,9 @@ pub struct Results {
 pub struct CaseResults {
     /// Metrics of the case.
     pub document: MetricsDocument,
-    /// Its parameters; none where the folder has no `case.toml`.
+    /// Parameters; none where the folder has no `case.toml`.
     pub parameters: Option<toml::Table>,
-    /// Its profiles and histories, by file name; a report keeps none.
+    /// Profiles and histories, by file name; a report keeps none.
     pub tables: Vec<Table>,
 }
 

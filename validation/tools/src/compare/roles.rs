@@ -12,7 +12,7 @@ pub struct PairedKey {
     pub case: String,
     /// Key of the variant in which paired runs differ.
     pub key: String,
-    /// Its value in the first folder and in the other.
+    /// Value in the first folder and in the other.
     pub values: [String; 2],
 }
 

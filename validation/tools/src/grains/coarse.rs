@@ -59,7 +59,7 @@ impl Window {
         BRANCH.iter().for_each(|(place, weight)| self.spread((y - place * b[1]) / bin, &values, *weight));
     }
 
-    /// Several windows as one.
+    /// Several windows combined into one.
     pub(super) fn merged(windows: &[Self]) -> Self {
         let mut sum = Self::default();
         for window in windows {

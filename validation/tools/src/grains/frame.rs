@@ -17,12 +17,12 @@ const SOLID: [f64; 2] = [0.05, 1.0];
 /// The grains of a frame.
 pub(super) struct Grains<'f> {
     pub(super) columns: &'f NamedColumns,
-    /// Rows of those that flow.
+    /// Rows of layers that flow.
     pub(super) rows: Vec<usize>,
 }
 
 impl<'f> Grains<'f> {
-    /// The grains of which those of the kinds flow.
+    /// Grains, with the kinds of those that flow.
     pub(super) fn new(columns: &'f NamedColumns, kinds: &[f64]) -> Self {
         let all = Self { columns, rows: Vec::new() };
         let count = columns.values().next().map_or(0, Vec::len);

@@ -75,7 +75,7 @@ pub(super) fn pictures(
     std::iter::from_fn(move || next().transpose())
 }
 
-/// At most so many lines as one text, with their number.
+/// At most N lines as one text, with their number.
 fn read_lines(reader: &mut impl BufRead, most: usize) -> io::Result<(String, usize)> {
     let (mut bytes, mut read) = (Vec::new(), 0);
     while read < most && reader.read_until(b'\n', &mut bytes)? > 0 {

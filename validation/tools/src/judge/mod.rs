@@ -94,12 +94,12 @@ pub struct CodeComparison {
     pub own: CaseResult,
     /// Judged codes, one for each submission.
     pub codes: Vec<JudgedCode>,
-    /// Our figures with theirs drawn in.
+    /// Our figures with those of the other codes drawn in.
     pub figures: Vec<Figure>,
 }
 
 impl JudgedCode {
-    /// Its gates; for those that are not judged nothing was given.
+    /// Gates; for those that are not judged nothing was given.
     pub fn tally(&self) -> Tally {
         let gated = self.metrics.iter().filter(|one| one.own.verdict() != Verdict::Observed);
         let severity = |one: &MetricComparison| match one.verdict() {

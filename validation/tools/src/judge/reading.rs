@@ -128,7 +128,7 @@ fn there(named: Vec<(f64, PathBuf)>, by: &Path) -> Result<Vec<(f64, PathBuf)>, F
     Ok(named)
 }
 
-/// Particles at one time after the other.
+/// Particles at successive times.
 pub(crate) type Frames<'f> = Box<dyn Iterator<Item = Result<ParticleFrame, ParameterError>> + 'f>;
 
 /// The frames of files of particles, each read when it is asked for; paths are relative to `folder`.

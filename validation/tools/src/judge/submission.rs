@@ -78,7 +78,7 @@ pub struct ForeignRun {
     /// Single numbers: metrics of the run by name, in their units.
     #[serde(default)]
     pub numbers: BTreeMap<String, f64>,
-    /// Particles, or cells, at times.
+    /// Particles, or cells, at several times.
     pub particles: Option<ParticleFiles>,
     /// Time series.
     pub series: Option<TableFile>,
@@ -198,7 +198,7 @@ impl Submission {
 }
 
 impl ForeignRun {
-    /// What is given of the run on its coarser mesh; nothing without one.
+    /// Data of the run on its coarser mesh; empty without one.
     pub(super) fn on_coarser_mesh(&self) -> Self {
         let table = |coarse: &CoarseRun| Some(TableFile { file: coarse.profile.clone(), ..self.profile.clone()? });
         let profile = self.coarse.as_ref().and_then(table);

@@ -32,9 +32,9 @@ pub struct BlindComparison {
     pub quantity: String,
     /// Predicted value, written before the measurement was known.
     pub value: f64,
-    /// Its standard uncertainty from the friction that was measured.
+    /// Standard uncertainty from the friction that was measured.
     pub u_input: f64,
-    /// Its standard uncertainty from the particle spacing.
+    /// Standard uncertainty from the particle spacing.
     pub u_numerical: f64,
     /// Lower end of the 95 % interval that carries the model's errors elsewhere.
     pub lower: Option<f64>,
@@ -88,7 +88,7 @@ impl BlindComparison {
         (!self.measured.is_empty()).then(|| self.measured.iter().sum::<f64>() / self.measured.len() as f64)
     }
 
-    /// Standard deviation of the grains between seeds; none of fewer than two.
+    /// Standard deviation of the grains between seeds; none for fewer than two.
     pub fn scatter(&self) -> Option<f64> {
         scatter(self.measured.iter().copied(), 2).map(|(_, scatter)| scatter)
     }

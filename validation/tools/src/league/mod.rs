@@ -98,7 +98,7 @@ pub fn split(groups: Vec<CaseSubmissions>) -> Groups {
     groups.into_iter().map(|group| (group.prepared, group.entries)).unzip()
 }
 
-/// Puts judged groups beside each other.
+/// Puts judged groups side by side.
 pub fn league(groups: &[CodeComparison]) -> League {
     let mut league = League::default();
     // rows of the case's own parameters come first, and name the others'
@@ -153,18 +153,18 @@ impl League {
 }
 
 impl LeagueRow {
-    /// Whether it tells physics: a limit or a reference, or several codes, and no account of a run's own.
+    /// Whether it is about physics: it has a limit, a reference or values of several codes, and is no balance of a single run.
     pub fn is_told(&self) -> bool {
         let has_reference = self.own.gate.is_some() || self.own.reference.is_some() || self.values.len() > 1;
         has_reference && self.own.kind != MetricKind::Bookkeeping
     }
 
-    /// Mean of the codes of our law and ours, and their standard deviation; none of fewer than three.
+    /// Mean of the codes of our law and ours, and their standard deviation; none for fewer than three.
     pub fn of_one_law(&self) -> Option<(f64, f64)> {
         scatter(self.of(LawOrigin::Same).chain([self.own.value]), FEWEST)
     }
 
-    /// Mean of the codes of grains, and their standard deviation; none of fewer than two.
+    /// Mean of the codes of grains, and their standard deviation; none for fewer than two.
     pub fn of_grains(&self) -> Option<(f64, f64)> {
         scatter(self.of(LawOrigin::Grains), 2)
     }
@@ -179,7 +179,7 @@ impl LeagueRow {
     }
 }
 
-/// Mean and standard deviation of the finite of some values; none of fewer than `fewest`.
+/// Mean and standard deviation of the finite of some values; none for fewer than `fewest`.
 pub(crate) fn scatter(values: impl Iterator<Item = f64>, fewest: usize) -> Option<(f64, f64)> {
     let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     let count = values.len() as f64;

@@ -12,7 +12,7 @@ use crate::store::Store;
 
 /// Watches a sweep, for a progress bar. Called from several threads.
 pub trait SweepMonitor: Sync {
-    /// A run begins.
+    /// Notes that a run begins.
     fn begun(&self, entry: &SweepRun);
     /// A run has its record.
     fn ended(&self, entry: &SweepRun, record: &EvaluationRecord);
@@ -56,7 +56,7 @@ pub fn run_entry(
     Ok(record)
 }
 
-/// Runs what is missing.
+/// Runs the missing simulations.
 ///
 /// # Errors
 /// Files that cannot be written; runs that have not begun are then left.

@@ -28,7 +28,7 @@ pub struct SweepRun {
     pub key: String,
     /// Expected cost `[particle-steps]`.
     pub particle_steps: f64,
-    /// Its complete parameters.
+    /// Complete parameters.
     pub parameters_toml: String,
     /// Keys of the runs that are meant; all runs where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

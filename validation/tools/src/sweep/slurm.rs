@@ -120,7 +120,7 @@ fn queued(arrays: &BTreeMap<String, usize>) -> Result<BTreeSet<usize>, ToolError
     Ok(printed.lines().filter_map(number).collect())
 }
 
-/// Request of the last submission of a sweep.
+/// Slurm options of the last submission of a sweep.
 ///
 /// # Errors
 /// A file that is damaged or cannot be read.

@@ -53,7 +53,7 @@ pub struct Mixture<const D: usize> {
     /// Accelerations by a pressure `[m/s²]`.
     fluid_change: Vec<Vector<D>>,
     sediment_change: Vec<Vector<D>>,
-    /// One over the diagonal `[m³ Pa/s]`.
+    /// Reciprocal of the diagonal `[m³ Pa/s]`.
     pub inverse_diagonal: Vec<f64>,
     right_side: Vec<f64>,
     deviation: Vec<f64>,

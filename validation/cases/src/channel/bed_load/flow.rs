@@ -70,7 +70,7 @@ impl BedLoadFormulation {
     }
 }
 
-/// One particle a grain.
+/// Formulation with one particle per grain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GrainParticles {
     /// How the grains resist a shear, a law by its name; its pressure is the weight of the grains below the top row.
@@ -186,7 +186,7 @@ pub struct BedLoadFlow {
     pub duration: f64,
     /// Averaging window before its end `[s]`.
     pub averaging_time: f64,
-    /// One particle a grain.
+    /// Formulation with one particle per grain.
     pub particles: GrainParticles,
     /// Volume fractions.
     pub continuum: Continuum,
@@ -323,7 +323,7 @@ impl BedLoadFlow {
         rules::projection("continuum.numerics", &continuum.numerics)
     }
 
-    /// The pair law of grains as volume fractions; none of grains that dilate.
+    /// The pair law of grains as volume fractions; none for grains that dilate.
     pub(super) fn pair_law(&self) -> Option<PairLaw> {
         let has_pairs = matches!(self.formulation, BedLoadFormulation::Porous | BedLoadFormulation::Frozen);
         has_pairs.then_some(self.continuum.numerics.pair_law)

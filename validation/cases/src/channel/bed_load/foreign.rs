@@ -9,7 +9,7 @@ use crate::input::FieldError;
 use crate::metric::Quantity;
 use crate::statistics::BLOCKS;
 
-/// What a run may yield.
+/// Possible data of a run.
 pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[

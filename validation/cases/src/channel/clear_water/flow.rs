@@ -12,7 +12,7 @@ use bagnold_solver::parameter::{between, not_negative, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How long a flow is simulated.
+/// Duration of a simulated flow.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Period {
@@ -66,7 +66,7 @@ pub struct ClearWaterFlow {
     /// Initial velocity over the logarithmic law's `[-]`.
     #[schemars(transform = between(0.1, 3.0, "give 1 to start from the logarithmic law"))]
     pub start_share: f64,
-    /// How long.
+    /// Duration.
     pub period: Period,
 }
 

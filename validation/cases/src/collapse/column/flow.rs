@@ -182,13 +182,13 @@ impl<const D: usize> Flow for ColumnFlow<D> {
 }
 
 impl<const D: usize> ColumnFlow<D> {
-    /// What it is made of.
+    /// Material of the column.
     pub fn made_of(&self) -> Material {
         let Self { grains, altered, material, .. } = self;
         Material { grains: *grains, altered: *altered, value: altered.value_in(material) }
     }
 
-    /// Density in bulk `[kg/m³]`.
+    /// Bulk density `[kg/m³]`.
     pub fn density(&self) -> f64 {
         self.bulk.density(&self.material)
     }
@@ -270,17 +270,17 @@ impl<const D: usize> ColumnFlow<D> {
         self.numerics.hourglass != Numerics::default().hourglass
     }
 
-    /// Whether it tells what the hourglass coefficient does, as one of an ensemble.
+    /// Whether it shows the effect of the hourglass coefficient, as one run of an ensemble.
     pub(crate) fn varies_hourglass(&self) -> bool {
         self.ensemble_member > 0 && self.has_other_hourglass()
     }
 
-    /// Whether it is one of an ensemble that ends while the column still falls, and so tells its velocity alone.
+    /// Whether it is one of an ensemble that ends while the column still falls, and so is judged by its velocity only.
     pub(crate) fn tells_velocity_alone(&self) -> bool {
         self.ensemble_member > 0 && self.duration < EARLIEST_REST
     }
 
-    /// Whether it is one of an ensemble that tells what comes to rest.
+    /// Whether it is one of an ensemble that is judged by the deposit.
     pub(crate) fn is_of_ensemble(&self) -> bool {
         self.ensemble_member > 0 && !self.varies_hourglass() && !self.tells_velocity_alone()
     }
@@ -317,7 +317,7 @@ impl<const D: usize> ColumnFlow<D> {
         (self.aspect_ratio * self.resolution as f64).round().max(1.0) as usize
     }
 
-    /// Elastic over potential energy of the start `[-]`: under hydrostatic pressure p²/(2K) has the mean ρ0 g h_0/(6·50),
+    /// Initial ratio of elastic and potential energy `[-]`: under hydrostatic pressure p²/(2K) has the mean ρ0 g h_0/(6·50),
     /// the potential energy above the bed ρ0 g h_0/2.
     pub fn elastic_share(&self) -> f64 {
         1.0 / (3.0 * STIFFNESS)
@@ -340,7 +340,7 @@ impl<const D: usize> ColumnFlow<D> {
         self.half_width * end
     }
 
-    /// Has measured nothing of it yet.
+    /// Surveyor before its first measurement.
     pub(crate) fn surveyor(&self) -> Surveyor {
         Surveyor {
             half_width: self.half_width,

@@ -66,9 +66,9 @@ impl Alteration {
 pub struct Material {
     /// The published grains.
     pub grains: ExperimentGrains,
-    /// What is altered.
+    /// Altered quantity.
     pub altered: Alteration,
-    /// The altered number; 0 for none.
+    /// Altered number; 0 for none.
     pub value: f64,
 }
 
@@ -83,7 +83,7 @@ impl ExperimentGrains {
         }
     }
 
-    /// What their source gives them.
+    /// Values that their source gives.
     pub(super) fn as_published(self) -> &'static PublishedGrains {
         match self {
             Self::Sand => &TABLE_2_SAND,
@@ -124,7 +124,7 @@ impl Material {
         if self.is_own(law) { format!("own grains as {}", self.grains.name()) } else { self.title() }
     }
 
-    /// What a legend calls them.
+    /// Name of the grains in a legend.
     pub fn title(self) -> String {
         let grains = match (self.grains, self.is_published()) {
             (ExperimentGrains::Sand, true) => "sand of Table 2",

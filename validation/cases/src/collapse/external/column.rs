@@ -12,7 +12,7 @@ use crate::metric::Quantity;
 use crate::setup::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
-/// What a column's run may yield.
+/// Possible data of a column's run.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[
         ExternalColumn::new(

@@ -23,9 +23,9 @@ pub(super) struct Room {
     pub(super) spacing: f64,
     /// Largest coordinate `[m]`.
     pub(super) reach: f64,
-    /// Density in bulk `[kg/m³]`.
+    /// Bulk density `[kg/m³]`.
     pub(super) density: f64,
-    /// Area of all at the start, in space the volume `[m²]` or `[m³]`.
+    /// Total initial area `[m²]`, or in space volume `[m³]`.
     pub(super) size: f64,
     /// The start, if it is a block at the origin.
     pub(super) start: Option<Start>,

@@ -7,7 +7,7 @@ use crate::collapse::slope::EARLIEST_REST;
 use crate::collapse::{Collapse, SlopeCollapse, SlopeFlow};
 use crate::input::FieldError;
 
-/// What a run on a slope may yield.
+/// Possible data of a run on a slope.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[
         ExternalColumn::new("x", "m", "distance from the back of the reservoir, along the slope"),

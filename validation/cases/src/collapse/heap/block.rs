@@ -13,7 +13,7 @@ use bagnold_solver::weakly_compressible::walls::wall::fill;
 /// Bulk modulus over ρ0 g h_0 `[-]`.
 pub(crate) const STIFFNESS: f64 = 50.0;
 
-/// What the grains of a block have in common.
+/// Common properties of the grains of a block.
 pub(crate) struct GrainBlock<const D: usize> {
     /// Particle spacing `[m]`.
     pub(crate) spacing: f64,
@@ -21,7 +21,7 @@ pub(crate) struct GrainBlock<const D: usize> {
     pub(crate) height: f64,
     /// Gravity `[m/s²]`.
     pub(crate) gravity: Vector<D>,
-    /// Density in bulk `[kg/m³]`.
+    /// Bulk density `[kg/m³]`.
     pub(crate) density: f64,
     /// Bulk modulus `[Pa]`.
     pub(crate) bulk_modulus: f64,

@@ -18,12 +18,12 @@ pub(crate) struct Camera {
     pub(crate) interval: f64,
     /// Thickness of the slab `[m]`.
     pub(crate) slab: f64,
-    /// What was taken so far.
+    /// Pictures taken so far.
     pub(crate) motion: MotionSequence,
 }
 
 impl Camera {
-    /// A camera that has taken nothing.
+    /// A camera without pictures yet.
     pub(crate) fn new(interval: f64, slab: f64) -> Self {
         Self { interval, slab, motion: MotionSequence::default() }
     }

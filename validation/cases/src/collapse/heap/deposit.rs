@@ -62,7 +62,7 @@ pub(crate) struct Surveyor {
     pub gravity: [f64; 2],
     /// End of the bed `[m]`.
     pub bed_end: f64,
-    /// What was measured so far.
+    /// Measurements so far.
     pub collapse: Collapse,
 }
 

@@ -23,14 +23,14 @@ const KNOWN_SHARE_OF_ROW: f64 = 0.23;
 /// Fronts of a heap over its initial half width `[-]`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Fronts {
-    /// At [`FRONT_THICKNESS`].
+    /// Front at [`FRONT_THICKNESS`].
     pub thin: f64,
-    /// How far they move with a row more or less of thickness: a row over the slope of the toe.
+    /// Shift of the fronts for one row more or less of thickness: a row over the slope of the toe.
     pub length_of_row: f64,
 }
 
 impl Fronts {
-    /// Those of a toe, over a half width `[m]`.
+    /// Fronts of a toe, over a half width `[m]`.
     pub(super) fn of(toe: &Toe, half_width: f64) -> Self {
         Self {
             thin: toe.front(FRONT_THICKNESS * half_width) / half_width,

@@ -6,7 +6,7 @@ use crate::observation::Frame;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
-/// What is seen of a run.
+/// Observer of a run.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct CollapseObserver {
     /// Measures every snapshot.
@@ -24,13 +24,13 @@ pub(crate) struct CollapseObserver {
 }
 
 impl CollapseObserver {
-    /// Has seen nothing; takes a frame of the animation every `frame_interval` `[s]`.
+    /// Initial state; takes a frame of the animation every `frame_interval` `[s]`.
     pub(crate) fn new(surveyor: Surveyor, frame_interval: f64, times: Vec<f64>, earliest_rest: f64) -> Self {
         let camera = Camera::new(frame_interval, surveyor.spacing);
         Self { surveyor, camera, times, earliest_rest, frames: Vec::new(), passed: 0 }
     }
 
-    /// Sees a snapshot; gives the thickness over r_0, bin by bin, and whether the heap rests.
+    /// Observes a snapshot; returns the thickness over r_0, bin by bin, and whether the heap is at rest.
     pub(crate) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> (Vec<(f64, f64)>, bool) {
         let thickness = self.surveyor.observe(snapshot);
         let r = self.surveyor.half_width;
@@ -45,7 +45,7 @@ impl CollapseObserver {
         (thickness, rests)
     }
 
-    /// What was measured and taken.
+    /// Measurements and pictures.
     pub(crate) fn finish<const D: usize>(self, end: &Snapshot<D>) -> Collapse {
         Collapse { motion: self.camera.motion, ..self.surveyor.finish(end) }
     }

@@ -10,19 +10,19 @@ const FASTEST: f64 = 0.05;
 const FIFTH: f64 = 0.2;
 /// How far behind the front its viscosity is taken, over the reservoir's length `[-]`.
 const BEHIND_FRONT: f64 = 0.1;
-/// A picture that is later or earlier by more is none of the time `[s]`.
+/// Largest difference in time `[s]` at which a picture still counts as one of that time.
 pub(super) const NEAR: f64 = 0.02;
 
-/// What one picture shows.
+/// Quantities of one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Inside {
     /// Mean depth of the fastest grains along the slope, over the local thickness `[-]`.
     pub(super) fastest_depth: f64,
     /// Rank correlation of the apparent viscosity with the depth below the surface `[-]`.
     pub(super) viscosity_and_depth: Option<f64>,
-    /// With the pressure `[-]`.
+    /// Correlation with the pressure `[-]`.
     pub(super) viscosity_and_pressure: Option<f64>,
-    /// With the shear rate `[-]`.
+    /// Correlation with the shear rate `[-]`.
     pub(super) viscosity_and_shear_rate: Option<f64>,
     /// Median of the apparent viscosity just behind the front `[Pa·s]`.
     pub(super) front_viscosity: Option<f64>,
@@ -35,7 +35,7 @@ pub(super) struct Inside {
 }
 
 impl Inside {
-    /// Of the picture at a time `[s]`; `None` where none was taken then.
+    /// Picture at a time `[s]`; `None` where no picture was taken then.
     pub(super) fn at(time: f64, run: &SlopeFlow, record: &Recorded<SlopeCollapse>) -> Option<Self> {
         let frame = Frame::nearest(&record.frames, time).filter(|frame| (frame.time - time).abs() <= NEAR)?;
         let index = record.data.collapse.nearest(time)?;
@@ -98,7 +98,7 @@ impl Inside {
     }
 }
 
-/// Lower quartile, median and upper quartile; none of fewer than four values.
+/// Lower quartile, median and upper quartile; none for fewer than four values.
 fn quartiles(mut values: Vec<f64>) -> Option<[f64; 3]> {
     values.sort_by(f64::total_cmp);
     let at = |quarters: usize| values[(quarters * (values.len() - 1) + 2) / 4];

@@ -39,7 +39,7 @@ const EARLIEST_STATED: f64 = 0.11;
 /// "Near the surface", of the local thickness `[-]`: the upper third.
 const NEAR_SURFACE: f64 = 1.0 / 3.0;
 
-/// What the gate allows beyond the band of the law's two quotations `[-]`.
+/// Margin of the gate beyond the band of the law's two quotations `[-]`.
 pub(super) const MARGIN: f64 = 0.15;
 /// Time at which the flow is compared with other codes, over √(h_0/g) `[-]`: the latest that they tell.
 const WELL_DOWN_THE_SLOPE: f64 = 4.0;

@@ -17,12 +17,12 @@ pub(super) fn band(expected: f64, tolerance: f64) -> Limit {
     Limit::Within(lower, upper)
 }
 
-/// How far the run-out of Lagrée's grains may lie from his own law `[-]`, and why.
+/// Largest deviation of the run-out of Lagrée's grains from his own law `[-]`, with its reason.
 pub(crate) const SAME_LAW: f64 = 0.15;
 pub(crate) const SAME_LAW_REASON: &str =
     "15 %: the published fit, by another method, has two digits and no stated front thickness";
 
-/// How far results may lie from an experiment's law that tells no scatter of its points, at most `[-]`.
+/// Largest deviation of results from an experiment's law without stated scatter `[-]`.
 pub(crate) const WIDEST: f64 = 0.15;
 
 /// Largest distance of results from Lube's law, relative `[-]`: as far as Lajeunesse's does, at least `least` over it and [`WIDEST`] at most.

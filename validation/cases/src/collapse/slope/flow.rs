@@ -178,7 +178,7 @@ impl Flow for SlopeFlow {
     }
 }
 
-/// What a collapse on a slope leaves behind; lengths over the reservoir's length, times in `[s]`.
+/// Results of a collapse on a slope; lengths over the reservoir's length, times in `[s]`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SlopeCollapse {
     /// Front, energies, deposit and balances.
@@ -188,7 +188,7 @@ pub struct SlopeCollapse {
 }
 
 impl SlopeFlow {
-    /// What measures it.
+    /// Surveyor that measures the collapse.
     pub(crate) fn surveyor(&self) -> Surveyor {
         Surveyor {
             half_width: self.reservoir_length,
@@ -214,7 +214,7 @@ impl SlopeFlow {
         matches!(self.material, Rheology::RegularisedMuI(_))
     }
 
-    /// Density in bulk `[kg/m³]`.
+    /// Bulk density `[kg/m³]`.
     pub fn density(&self) -> f64 {
         self.bulk.density(&self.material)
     }

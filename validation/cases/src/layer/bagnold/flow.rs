@@ -14,7 +14,7 @@ use bagnold_solver::parameter::{between, not_negative, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How a layer starts.
+/// Initial state of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LayerStart {
@@ -37,7 +37,7 @@ impl LayerStart {
     }
 }
 
-/// What becomes of a layer on its slope.
+/// Outcome of a layer on its slope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fate {
     /// It comes to rest: the slope is not above the static friction angle.
@@ -185,7 +185,7 @@ impl Flow for BagnoldFlow {
 }
 
 impl BagnoldFlow {
-    /// What becomes of the layer.
+    /// Outcome of the layer.
     pub fn fate(&self) -> Fate {
         let profile = self.profile();
         match profile.inertial_number() {

@@ -112,7 +112,7 @@ impl FilmFlow {
         Incline { layer_height, inclination: self.slope_angle.to_radians(), gravity, density: self.density }
     }
 
-    /// Its steady flow.
+    /// Steady flow.
     pub fn film(&self) -> SteadyFilm {
         let numerics = &self.layer.numerics;
         let spacing = self.layer.layer_height / self.layer.resolution as f64;
@@ -139,7 +139,7 @@ impl FilmFlow {
         self.layer.numerics.verlet_skin > Numerics::default().verlet_skin
     }
 
-    /// Name of its numerics in a variant; none of the default.
+    /// Name of its numerics in a variant; none for the default.
     fn numerics_name(&self) -> Option<&'static str> {
         let numerics = &self.layer.numerics;
         match numerics.momentum_operator {

@@ -59,7 +59,7 @@ pub struct FlowThicknessFlow {
     pub flow_coefficient: f64,
 }
 
-/// What a flow leaves behind.
+/// Results of a flow.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FlowThicknessObservation {
@@ -168,7 +168,7 @@ impl FlowThicknessFlow {
         self.flowing_angle > 0.0
     }
 
-    /// Condition on the fluidity at the surface, as a variant has it; none of the local law.
+    /// Condition on the fluidity at the surface, as a variant has it; none for the local law.
     pub(super) fn surface_name(&self) -> Option<&'static str> {
         let Rheology::NonlocalMuI(law) = self.material else { return None };
         Some(match law.surface {
@@ -198,13 +198,13 @@ impl FlowThicknessFlow {
         BagnoldProfile::of(&self.grains(), layer_height, self.solid_fraction, gravity, angle)
     }
 
-    /// The nonlocal law's own layer on a slope `[°]`, without particles; none of the local law.
+    /// The nonlocal law's own layer on a slope `[°]`, without particles; none for the local law.
     pub(super) fn exact(&self, angle: f64) -> Option<NonlocalLayer> {
         let Rheology::NonlocalMuI(NonlocalMuI { cooperativity, surface, .. }) = self.material else { return None };
         Some(NonlocalLayer { layer: self.profile(angle), cooperativity, surface })
     }
 
-    /// Its steady flow; none of the local law.
+    /// Steady flow; none for the local law.
     pub(super) fn steady(&self) -> Option<NonlocalProfile> {
         self.exact(self.slope_angle)?.steady(REFERENCE_CELLS).ok()
     }

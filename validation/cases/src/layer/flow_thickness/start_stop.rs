@@ -26,7 +26,7 @@ pub(super) struct SlopeSearch<'a> {
     pub tolerance: f64,
 }
 
-/// What became of a layer.
+/// Outcome of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LayerFate {
@@ -43,9 +43,9 @@ pub enum LayerFate {
 pub struct SlopeTrial {
     /// Slope `[°]`.
     pub slope_angle: f64,
-    /// What became of the layer.
+    /// Outcome of the layer.
     pub fate: LayerFate,
-    /// When it stopped, was found steady or was given up `[s]`.
+    /// Time at which it stopped, was found steady or was given up `[s]`.
     pub time: f64,
     /// Depth mean of its velocity at that time `[m/s]`.
     pub mean_velocity: f64,
@@ -53,7 +53,7 @@ pub struct SlopeTrial {
     pub lost: usize,
 }
 
-/// What the search leaves behind.
+/// Results of the search.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StartStop {
     /// All trials in their order.

@@ -70,7 +70,7 @@ impl HydrostaticFlow {
         Layer { duration: self.duration, window: 0.5, interval: 5e-3, frames: 3, ..layer }
     }
 
-    /// Density in bulk `[kg/m³]`.
+    /// Bulk density `[kg/m³]`.
     pub fn density(&self) -> f64 {
         self.bulk.density(&self.material)
     }

@@ -6,7 +6,7 @@ use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSch
 use crate::input::FieldError;
 use crate::layer::{LayerObservation, TimeSeries, foreign};
 
-/// What a run may yield.
+/// Possible data of a run.
 pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[

@@ -1,6 +1,6 @@
 //! Cost of a particle-step, for estimates before a run: orders of magnitude for a small scene on one core.
 
-/// Of the weakly compressible model in the plane `[s]`; a column in space costs four times as much.
+/// Time for the weakly compressible model in the plane `[s]`; a column in space costs four times as much.
 pub const WEAKLY_COMPRESSIBLE: f64 = 0.7e-6;
 
 /// Preparation of a triangle of a mesh `[s]`: trees, dummy particles behind it, output.
@@ -10,7 +10,7 @@ pub const TRIANGLE: f64 = 5e-5;
 /// precision, and some ten iterations.
 pub const IMPLICIT_STEP: f64 = 3.0;
 
-/// Of the incompressible model `[s]`.
+/// Time for the incompressible model `[s]`.
 pub const INCOMPRESSIBLE: f64 = 1.5e-6;
 
 /// Resources that a run is expected to take.
@@ -29,7 +29,7 @@ pub struct RunCost {
 }
 
 impl RunCost {
-    /// A run of the weakly compressible model in the plane, of so many particles and steps.
+    /// A run of the weakly compressible model in the plane, with given numbers of particles and steps.
     pub fn weakly_compressible(particles: f64, steps: f64) -> Self {
         Self {
             particles,
@@ -40,7 +40,7 @@ impl RunCost {
         }
     }
 
-    /// A run of the incompressible model, of so many particles and steps.
+    /// A run of the incompressible model, with given numbers of particles and steps.
     pub fn incompressible(particles: f64, steps: f64) -> Self {
         Self { seconds_per_particle_step: INCOMPRESSIBLE, ..Self::weakly_compressible(particles, steps) }
     }

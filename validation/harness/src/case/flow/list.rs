@@ -115,7 +115,7 @@ pub struct ListedChange {
 }
 
 impl ListedChange {
-    /// Its values as settings `path=value`.
+    /// Values as settings `path=value`.
     pub fn settings(&self) -> impl Iterator<Item = String> {
         self.values.iter().map(|(_, path, value)| format!("{path}={value}"))
     }
@@ -133,7 +133,7 @@ impl ListOfRuns {
         Self { vary: of_tier(self.vary), ..self }
     }
 
-    /// Refuses values for tiers: a list that is run has one.
+    /// Refuses values for tiers, because a run list has a single tier.
     ///
     /// # Errors
     /// The first key that names a tier.

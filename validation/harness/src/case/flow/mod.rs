@@ -318,7 +318,7 @@ impl<F: Flow> RunList<F> {
         run.variant().followed_by(&self.label(run))
     }
 
-    /// Makes the values at these paths those of all runs, whatever the list says of them.
+    /// Sets the values at these paths for all runs, whatever the list gives.
     pub(in crate::case) fn set_for_all(table: &mut Table, paths: &[String]) {
         let parts = ["variants", "vary"].into_iter().filter_map(|key| Some((key.to_owned(), table.get(key)?.clone())));
         let Ok(mut list) = Value::Table(parts.collect()).try_into::<ListOfRuns>() else { return };

@@ -53,7 +53,7 @@ impl ParameterError {
         FieldError::finding(name, "unknown case", &format!("{instead}`bagnold list` prints all cases")).into()
     }
 
-    /// Says that the parameter at fault is part of a group of parameters.
+    /// Marks the parameter at fault as part of a group of parameters.
     #[must_use]
     pub fn within(self, group: &str) -> Self {
         match self {
@@ -80,7 +80,7 @@ impl ParameterError {
         matches!(self, Self::Field(FieldError { origin: Some(Origin::Setting(_)), .. }))
     }
 
-    /// Says which of the cases of a report refuses a setting.
+    /// Names the case of a report that refuses a setting.
     pub fn in_case(mut self, case: &str) -> Self {
         if let Self::Field(FieldError { remedy, .. }) = &mut self {
             *remedy = format!("{remedy} (refused by the case {case}; --cases can leave it out)").into();
@@ -96,7 +96,7 @@ impl ParameterError {
         self
     }
 
-    /// Says in which file the parameter at fault stands, unless that is already known.
+    /// Adds the file of the parameter at fault, unless it is already known.
     pub fn in_file(mut self, path: &Path) -> Self {
         if let Self::Field(FieldError { origin, .. }) | Self::Changed { origin, .. } = &mut self {
             origin.get_or_insert_with(|| Origin::File(path.to_owned()));
@@ -104,7 +104,7 @@ impl ParameterError {
         self
     }
 
-    /// Says in which file the parameter at fault stands, if one gives it.
+    /// Adds the file of the parameter at fault, if a file gives it.
     pub(in crate::case) fn given_in(self, file: Option<&Path>) -> Self {
         if let Some(file) = file { self.in_file(file) } else { self }
     }

@@ -22,7 +22,7 @@ pub struct CaseFile {
     pub tier: Option<Tier>,
     /// Files with measurements to be drawn into its figures; beside the file, unless they say otherwise.
     pub overlay: Vec<MeasuredFiles>,
-    /// States of its runs to be written on their way.
+    /// States to be written during its runs.
     pub output: Option<OutputPlan>,
     /// Everything else.
     pub fields: Table,

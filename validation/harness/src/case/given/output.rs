@@ -25,14 +25,14 @@ pub const OUTPUT_FIELDS: [&str; 12] = [
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct OutputPlan {
-    /// Time between two of them `[s]`.
+    /// Time between two states `[s]`.
     pub every: f64,
     /// Quantities of the particles; all where none are named.
     #[serde(default)]
     pub fields: Vec<String>,
 }
 
-/// Takes states of one run on its way.
+/// Receives states during one run.
 pub trait StateOutput: Sync {
     /// Whether one is wanted at a time `[s]`.
     fn is_due(&self, time: f64) -> bool;
@@ -69,7 +69,7 @@ impl OutputPlan {
         format!("[output]\nevery = {:?}\n{fields}", self.every)
     }
 
-    /// Takes the table out of the fields of a case file.
+    /// Removes the table from the fields of a case file and returns it.
     ///
     /// # Errors
     /// Errors of [`OutputPlan::new`]; other keys, and values of another type.

@@ -34,7 +34,7 @@ pub struct Condition {
 /// Boundaries and start of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Conditions {
-    /// Its conditions, boundaries first.
+    /// Conditions, boundaries first.
     pub rows: Vec<Condition>,
 }
 

@@ -24,7 +24,7 @@ pub(in crate::case) fn fail_broken_profiles(runs: &mut [RunSummary], tables: &[T
     }
 }
 
-/// Takes the values of gates away whose runs diverged although that is no result: nothing of such a run is green.
+/// Removes the values of gates whose runs diverged unexpectedly, so that none of them passes.
 pub(in crate::case) fn fail_diverged(metrics: &mut [Metric], runs: &[RunSummary]) {
     let reason = DIVERGED.to_owned();
     for run in runs.iter().filter(|run| run.diverged_unexpectedly()) {

@@ -22,7 +22,7 @@ pub struct ParticleFrame {
 /// All that another code gives of one run, each part optional.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ExternalData {
-    /// Particles at times that rise.
+    /// Particles at increasing times.
     pub pictures: Vec<ParticleFrame>,
     /// Time series.
     pub series: NamedColumns,

@@ -54,7 +54,7 @@ pub struct CaseResult {
     pub name: String,
     /// Origin of the code of the case: these packages or another crate.
     pub origin: CodeOrigin,
-    /// One line about it.
+    /// Description in one line.
     pub summary: String,
     /// A paragraph: what is simulated and what it is judged against.
     pub description: String,

@@ -100,7 +100,7 @@ pub struct Ending<S> {
 }
 
 impl<S> Ending<S> {
-    /// That of a run that has left no frames, does not say why it was stopped, and whose divergence would be an error.
+    /// End of a run without frames and without a stop criterion, whose divergence is an error.
     pub fn of(stop: Stop, last_good: S, started: Instant) -> Self {
         Self { stop, last_good, criterion: String::new(), may_diverge: false, frames: Vec::new(), started }
     }

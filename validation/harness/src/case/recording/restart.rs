@@ -24,7 +24,7 @@ pub enum StartState {
 
 /// A simulation that can be recorded, saved and continued.
 pub trait Restartable: Sized {
-    /// Its states.
+    /// States.
     type State;
     /// Scene that the simulation is set up from.
     type Scene;
@@ -67,7 +67,7 @@ pub trait Restartable: Sized {
 pub struct SimulationStage<'a, C> {
     /// Progress of the run, with its checkpoints.
     pub progress: &'a Progress<'a>,
-    /// Its end `[s]`.
+    /// End `[s]`.
     pub end: f64,
     /// Time between two observations `[s]`.
     pub interval: f64,
@@ -89,7 +89,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// The end that the solver gives as its reason.
+    /// End of the run with the solver's reason.
     pub(super) fn of<const D: usize>(reason: StopReason<D>) -> Result<Self, ParameterError> {
         match reason {
             StopReason::Finished => Ok(Self::Finished),

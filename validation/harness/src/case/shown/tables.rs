@@ -29,7 +29,7 @@ fn tables_below(path: &str, schema: &Schema) -> String {
     text
 }
 
-/// The forms of a table: one, or those that its tag chooses from; none of what is not a table.
+/// The forms of a table: one, or those that its tag chooses from; none for what is not a table.
 fn forms(schema: &Schema) -> Vec<&Schema> {
     match Shape::of(schema) {
         Shape::Fields { .. } => vec![schema],

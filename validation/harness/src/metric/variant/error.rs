@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` must be `key=value,key=value`, but has {defect}")]
 pub struct VariantError {
-    /// The text as given.
+    /// Text as given.
     pub text: String,
     /// A part without a key or a value, or a key that stands twice.
     pub defect: String,

@@ -24,18 +24,18 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// The variant with a single key.
+    /// Variant with a single key.
     pub fn of(key: &str, value: impl Into<Value>) -> Self {
         Self::default().and(key, value)
     }
 
-    /// With another key at the end.
+    /// This variant followed by another key.
     pub fn and(mut self, key: &str, value: impl Into<Value>) -> Self {
         self.parts.push((key.to_owned(), value.into()));
         self
     }
 
-    /// With all keys of another variant at the end.
+    /// This variant followed by all keys of another one.
     pub fn followed_by(mut self, other: &Self) -> Self {
         self.parts.extend(other.parts.iter().cloned());
         self
@@ -75,7 +75,7 @@ impl Variant {
         self.parts.iter().map(|(key, value)| (key.as_str(), value))
     }
 
-    /// Its values alone, in order.
+    /// Values alone, in order.
     pub fn values(&self) -> impl Iterator<Item = &Value> {
         self.parts.iter().map(|(_, value)| value)
     }

@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 pub struct Value(String);
 
 impl Value {
-    /// Its text.
+    /// Text.
     pub fn text(&self) -> &str {
         &self.0
     }
@@ -32,14 +32,14 @@ impl Value {
         if is_list { parts.into_iter().map(Self::from).collect() } else { vec![self.clone()] }
     }
 
-    /// Several numbers as one value: the number itself if there is one only.
+    /// Several numbers as one value, or the number itself if there is one.
     pub fn list(numbers: impl IntoIterator<Item = impl Into<Self>>) -> Self {
         let text: Vec<String> = numbers.into_iter().map(|number| number.into().0).collect();
         Self(text.join("_"))
     }
 }
 
-/// The number of a text; none of one that would be written in another way, such as `1e3`.
+/// The number of a text; none for one that would be written in another way, such as `1e3`.
 fn number_in(text: &str) -> Option<f64> {
     text.parse::<f64>().ok().filter(|number| number.is_finite() && number.to_string() == text)
 }

@@ -36,9 +36,9 @@ const AT_BOUND: f64 = 1e-6;
 /// A parameter as sentences call it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ParameterLabel {
-    /// Its name, as in the input file.
+    /// Name, as in the input file.
     pub name: String,
-    /// Its unit; empty or `-` without one.
+    /// Unit; empty or `-` without one.
     pub unit: String,
 }
 
@@ -110,7 +110,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// All that the data leave open, worst first. `jacobian` holds the derivatives of the weighted residuals at the
+/// Everything that the data leave open, worst first. `jacobian` holds the derivatives of the weighted residuals at the
 /// minimum, `physical` turns the coordinate of a parameter into its value in its unit.
 pub fn assess(
     jacobian: &DMatrix<f64>,

@@ -158,7 +158,7 @@ pub enum SearchError<E> {
     Setting {
         /// The field at fault.
         field: &'static str,
-        /// Its value as written.
+        /// Value as written.
         value: String,
         /// The rule it breaks, completing "must be …".
         rule: &'static str,

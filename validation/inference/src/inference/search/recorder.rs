@@ -41,14 +41,14 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
         Self::with(model, Vec::new(), budget)
     }
 
-    /// One that knows some points already; they count in the budget.
+    /// A recorder with known points, which count in the budget.
     pub(in crate::inference) fn with(model: &'a mut M, history: Vec<Evaluated>, budget: usize) -> Self {
         let known = history.iter().enumerate().map(|(place, evaluated)| (bits(&evaluated.point), place)).collect();
         let data = history.iter().find_map(|evaluated| evaluated.residuals.as_ref().map(Vec::len));
         Self { model, budget, history, known, data }
     }
 
-    /// Allows so many points more than there are now.
+    /// Allows a number of further points.
     pub(in crate::inference) fn allow(&mut self, evaluations: usize) {
         self.budget = self.history.len() + evaluations;
     }

@@ -6,11 +6,11 @@ pub(super) type CellUnknowns = [f64; 2];
 /// One row of blocks. The blocks beside the diagonal are diagonal themselves: stress couples a phase to itself only.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct BlockRow {
-    /// Below the diagonal.
+    /// Entries below the diagonal.
     pub(super) lower: CellUnknowns,
-    /// On the diagonal, row by row.
+    /// Entries on the diagonal, row by row.
     pub(super) diagonal: [CellUnknowns; 2],
-    /// Above the diagonal.
+    /// Entries above the diagonal.
     pub(super) upper: CellUnknowns,
     /// Right-hand side.
     pub(super) right: CellUnknowns,

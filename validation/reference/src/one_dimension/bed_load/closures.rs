@@ -28,7 +28,7 @@ pub enum MixingLengthClosure {
 }
 
 impl MixingLengthClosure {
-    /// Its name in parameters and results.
+    /// Name in parameters and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",

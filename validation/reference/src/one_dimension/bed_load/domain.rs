@@ -27,7 +27,7 @@ pub const RELATIVE_DEPTHS: RangeInclusive<f64> = 9.0..=100.0;
 pub struct OutsideBedLoad {
     /// Name of the quantity.
     pub quantity: &'static str,
-    /// Its value `[-]`.
+    /// Value `[-]`.
     pub value: f64,
     /// Least value `[-]`.
     pub least: f64,

@@ -12,7 +12,7 @@ pub struct SolidFractionProfile {
 }
 
 impl SolidFractionProfile {
-    /// From points (z `[m]`, φ `[-]`) in rising order.
+    /// Profile from points (z `[m]`, φ `[-]`) in rising order.
     ///
     /// # Errors
     /// No point, heights that fall, fractions outside [0, 1).
@@ -52,7 +52,7 @@ impl SolidFractionProfile {
         Self::new((0..=count).map(|k| (height(k), fraction(height(k)))).collect())
     }
 
-    /// That of a computed layer, constant in each of its cells: the same cells get the same fractions.
+    /// Fraction of a computed layer, constant in each of its cells.
     pub fn of_cells(layer: &LayerState) -> Self {
         let half = 0.5 * layer.cell_height;
         let ends = |(&z, &fraction): (&f64, &f64)| [(z - half, fraction), (z + half, fraction)];

@@ -13,16 +13,16 @@ const FAST: f64 = 15.0;
 /// The steady states from two starts: one, unless they differ by more than [`SAME_STATE`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteadyStates {
-    /// From rest.
+    /// State from rest.
     pub slow: LayerState,
-    /// From a fast start.
+    /// State from a fast start.
     pub fast: LayerState,
-    /// Their difference `[-]`.
+    /// Difference of the two states `[-]`.
     pub difference: f64,
 }
 
 impl SteadyStates {
-    /// Of the states from rest and from a fast start.
+    /// Pair of the states from rest and from a fast start.
     pub fn of(slow: LayerState, fast: LayerState) -> Self {
         Self { difference: slow.start_difference(&fast), slow, fast }
     }
@@ -64,7 +64,7 @@ impl BedLoadLayer {
 }
 
 impl BedLoadLayer {
-    /// A start that is faster than any steady state.
+    /// A start faster than any steady state.
     pub fn fast_start(&self) -> InitialVelocity {
         InitialVelocity::Moving(FAST * self.stream.shear_velocity())
     }

@@ -60,7 +60,7 @@ impl Stream {
         ((self.grain_density / self.fluid_density - 1.0) * self.gravity * d * d * d).sqrt()
     }
 
-    /// Its grains as they settle, with the diameter of their drag.
+    /// Grains as they settle, with the diameter of their drag.
     pub(super) fn settling_grains(&self) -> SettlingGrains {
         SettlingGrains {
             grain_diameter: self.drag_diameter * self.grain_diameter,

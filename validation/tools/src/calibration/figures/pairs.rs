@@ -4,7 +4,7 @@ use super::super::result::CalibrationResult;
 use super::axis;
 use crate::figure::{Figure, Panel};
 
-/// The figure; none of fewer than two parameters or without a region.
+/// The figure; none for fewer than two parameters or without a region.
 pub(super) fn figure(outcome: &CalibrationResult) -> Option<Figure> {
     let count = outcome.parameters.len();
     if count < 2 || outcome.region.is_empty() {

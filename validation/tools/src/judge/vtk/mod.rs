@@ -61,7 +61,7 @@ impl From<&str> for Refusal {
 }
 
 impl PointArrays {
-    /// Reads a file's points.
+    /// Reads the points of a file.
     ///
     /// # Errors
     /// A file that is none of VTK's, is damaged, or holds no points.
