@@ -25,7 +25,7 @@ judged as those of Bagnold. `bagnold league` writes the page with all sources;
 ";
 
 const VALUES: &str = "
-✓ passes, ✗ fails, ○ is not judged. The standard deviation is that of Bagnold and of the codes of
+✓ passes, ✗ fails, · is not judged. The standard deviation is that of Bagnold and of the codes of
 the same law; it measures the scatter between methods under one law. *grains*: that of the codes
 of the same grains.
 ";
@@ -87,7 +87,7 @@ fn value(metric: &Metric) -> String {
     let symbol = match metric.verdict() {
         Verdict::Pass => "✓",
         Verdict::Fail => "✗",
-        Verdict::Observed => "○",
+        Verdict::Observed => "·",
     };
     format!("{symbol} {}", number(metric.value))
 }
