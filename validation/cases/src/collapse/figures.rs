@@ -171,8 +171,8 @@ fn deposits<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     }
     Figure::new(
         &of_material("deposits", records),
-        "Thickness of the deposits (volume per bin of 0.1 r0). The run-out is read at a thickness of 0.02 r0; fewer \
-         than four particle rows at the toe count as a wedge of equal volume.",
+        "Thickness of the deposits (volume per bin of 0.1 r0). The run-out is read at a thickness of 0.02 r0; a toe of \
+         fewer than four particle rows counts as a wedge of equal volume.",
         vec![panel],
     )
 }

@@ -1,6 +1,6 @@
 //! Templates: the values of a page → its text.
 
-/// Fills one of some templates, which may include each other and import `figure.html`, a figure with links to its files. A name that ends in `.html` escapes everything that is inserted,
+/// Fills one of the templates, which may include each other and import `figure.html`, a figure with links to its files. A name that ends in `.html` escapes everything that is inserted,
 /// except for `style`, the text of all pages' style sheet.
 pub fn fill(
     templates: &[(&'static str, &'static str)],

@@ -11,8 +11,8 @@ const PLANAR: &str = "\
     is released at once. The sand is that of Table 2 of the collapse paper; the other grains are those of \
     Lagrée, Staron & Popinet (2011), whose grain diameter is not published.\n\n\
     Definitions. Run-out: distance of the front at a thickness of 0.02 r_0, minus the initial half width, over \
-    the half width. Thickness is counted in whole rows of particles, outwards from the thickest place. Fewer \
-    than four rows at the toe are replaced by a wedge of the same volume, so that isolated grains do not set the \
+    the half width. Thickness is counted in whole rows of particles, outwards from the thickest place. A \
+    toe of fewer than four rows is replaced by a wedge of the same volume, so that isolated grains do not set the \
     run-out. Height: thickness of the innermost bin.\n\n\
     Judged. Run-out, height, stopping time and exponents against the published laws; fronts and kinetic energy \
     over time against other codes; the shape of a pile of rods against measurements; balances.\n\n\
