@@ -80,7 +80,7 @@ pub(crate) fn setup<S: Dimension<D>, const D: usize>(scenes: &[SceneFlow<S, D>])
 
 /// Caption and panels of a scene at the start.
 fn start<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>) -> (String, Vec<Panel>) {
-    let sites = parameters.survey(&Surfaces::of::<S>(&parameters.enclosure(), parameters.depth_of_walls()));
+    let sites = parameters.survey(&Surfaces::of(&parameters.enclosure(), parameters.depth_of_walls(), S::SIDE));
     let count = |fate: SiteFate| sites.iter().filter(|(_, other)| *other == fate).count();
     let caption = format!(
         "Of {} lattice sites inside the bodies, {} get particles (0), {} are too close to a wall (½), {} are behind a wall (1).",

@@ -183,7 +183,7 @@ mod tests {
     {
         let scene = SceneFlow { bodies, spacing, walls: Vec::new(), ..quick::<S, D>() };
         let law = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e6, tension: Tension::Cut };
-        let (flow, _) = scene.fill(&Surfaces::of::<S>(&BoundarySet::default(), spacing), &law).expect("filled");
+        let (flow, _) = scene.fill(&Surfaces::of(&BoundarySet::default(), spacing, S::SIDE), &law).expect("filled");
         flow.mass.iter().zip(&flow.density).map(|(mass, density)| mass / density).sum()
     }
 

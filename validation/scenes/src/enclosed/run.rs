@@ -257,7 +257,7 @@ where
         // the last state follows
         ending.frames.retain(|frame| frame.time + 0.5 * self.interval.min(self.duration) < self.duration);
         let mut observation = watch.observation;
-        (observation.behind, observation.cut_off) = (behind::<S, D>(&simulation), cut_off);
+        (observation.behind, observation.cut_off) = (behind(&simulation, S::SIDE), cut_off);
         Ok(ending.record(&simulation, |_| observation))
     }
 }
@@ -344,7 +344,9 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
 
     /// Refuses material right behind a wall where another one is nearer: there the wall has no thickness to keep it away.
     fn check_backs(&self, enclosure: &BoundarySet<D>, places: &[Vector<D>]) -> Result<(), ParameterError> {
-        let Some((wall, place)) = first_behind::<S, D>(&enclosure.walls, places, self.spacing) else { return Ok(()) };
+        let Some((wall, place)) = first_behind(&enclosure.walls, places, (self.spacing, S::SIDE)) else {
+            return Ok(());
+        };
         let place: Vec<String> = place.iter().map(|coordinate| four_digits(*coordinate)).collect();
         let (name, place) = (self.walls[wall].name(), place.join(", "));
         let defect = format!("material directly behind `{name}`, at ({place}) m, where it meets another wall");
@@ -359,7 +361,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     pub(super) fn scene(&self) -> Result<(Scene<D>, f64), ParameterError> {
         let Self { spacing, numerics, material, .. } = *self;
         let (equation_of_state, enclosure) = (self.equation_of_state(), self.enclosure());
-        let surfaces = Surfaces::of::<S>(&enclosure, self.depth_of_walls());
+        let surfaces = Surfaces::of(&enclosure, self.depth_of_walls(), S::SIDE);
         self.check_openings(&enclosure.inlets, &surfaces)?;
         let (flow, cut_off) = self.fill(&surfaces, &equation_of_state)?;
         self.check_backs(&enclosure, &flow.position)?;

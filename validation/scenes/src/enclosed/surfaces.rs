@@ -1,6 +1,5 @@
 //! Places in front of the walls of a scene, and behind them.
 
-use super::flow::Dimension;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 use bagnold_solver::weakly_compressible::enclosure::facet_side::FacetSide;
@@ -56,11 +55,11 @@ pub(super) struct Surfaces<const D: usize>(Vec<FacetSurface<D>>);
 impl<const D: usize> Surfaces<D> {
     /// The surfaces of walls and then of the rows of inlets, by which places are found up to a distance `[m]`: as far as the walls are
     /// thick.
-    pub(super) fn of<S: Dimension<D>>(BoundarySet { walls, inlets, .. }: &BoundarySet<D>, range: f64) -> Self {
-        let surface = |one| FacetSurface::of(std::iter::once(one), range, S::SIDE);
+    pub(super) fn of(BoundarySet { walls, inlets, .. }: &BoundarySet<D>, range: f64, search: SideSearch<D>) -> Self {
+        let surface = |one| FacetSurface::of(std::iter::once(one), range, search);
         let (rest, moving): (Vec<_>, Vec<_>) = walls.iter().enumerate().partition(|(_, wall)| wall.motion.is_rest());
         let rows: Vec<_> = inlets.iter().map(Inlet::wall).collect();
-        let rest = std::iter::once(FacetSurface::of(rest.into_iter(), range, S::SIDE));
+        let rest = std::iter::once(FacetSurface::of(rest.into_iter(), range, search));
         let rows = rows.iter().enumerate().map(|(inlet, rows)| (walls.len() + inlet, rows));
         let moving = moving.into_iter().chain(rows).map(surface);
         Self(rest.chain(moving).collect())
@@ -75,12 +74,12 @@ impl<const D: usize> Surfaces<D> {
 }
 
 /// The first of some places that is behind a wall at the start by less than half a spacing `[m]`, and the number of the wall.
-pub(super) fn first_behind<S: Dimension<D>, const D: usize>(
+pub(super) fn first_behind<const D: usize>(
     walls: &[FacetWall<D>],
     places: &[Vector<D>],
-    spacing: f64,
+    (spacing, search): (f64, SideSearch<D>),
 ) -> Option<(usize, Vector<D>)> {
-    let each = walls.iter().enumerate().map(|one| FacetSurface::of(std::iter::once(one), PASSED * spacing, S::SIDE));
+    let each = walls.iter().enumerate().map(|one| FacetSurface::of(std::iter::once(one), PASSED * spacing, search));
     each.enumerate().find_map(|(wall, surface)| {
         let is_behind = |place: &&Vector<D>| surface.nearest(place).is_some_and(|wall| wall.distance < 0.0);
         places.iter().find(is_behind).map(|place| (wall, *place))
@@ -93,10 +92,10 @@ pub(super) fn is_taken(nearest: &NearestWall, spacing: f64) -> bool {
 }
 
 /// Particles that are behind a wall by less than half a spacing: they have passed it.
-pub(super) fn behind<S: Dimension<D>, const D: usize>(simulation: &Simulation<D>) -> u64 {
+pub(super) fn behind<const D: usize>(simulation: &Simulation<D>, search: SideSearch<D>) -> u64 {
     let range = PASSED * simulation.spacing();
     let walls = simulation.facet_walls().iter().enumerate();
-    let surfaces: Vec<_> = walls.map(|one| FacetSurface::of(std::iter::once(one), range, S::SIDE)).collect();
+    let surfaces: Vec<_> = walls.map(|one| FacetSurface::of(std::iter::once(one), range, search)).collect();
     let particles = simulation.particles();
     let count = particles.position[..particles.flow_count()].iter().filter(|place| {
         let mut walls = surfaces.iter().zip(simulation.facet_wall_poses());
