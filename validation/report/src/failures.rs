@@ -3,9 +3,9 @@
 
 use super::expected_failures::ListStatus;
 use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
-use super::rows::{signed, statement};
+use super::rows::{margin_share, signed, statement};
 use super::view::{VerdictMark, anchor, words};
-use crate::metric::{GateOwner, Limit, Metric, Quantity, Value, Variant};
+use crate::metric::{GateOwner, Metric, Quantity, Value, Variant};
 use crate::number::with_unit;
 use serde_json::json;
 
@@ -52,7 +52,7 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<serde_json::Value> {
     items.into_iter().map(|(.., item)| item).collect()
 }
 
-/// The failure that is the furthest off; infinite distances, which JSON does not hold, are of zeros and of no number.
+/// The failure that is the farthest beyond its limit; never of no number, whose distance JSON does not hold.
 pub(super) fn weakest(items: &[serde_json::Value]) -> Option<&serde_json::Value> {
     let known = items.iter().filter_map(|item| Some((item["distance"].as_f64()?, item)));
     known.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, item)| item)
@@ -78,28 +78,9 @@ fn description(quantities: &[Quantity], name: &str) -> &'static str {
     quantities.iter().find(|quantity| quantity.name == name).map_or("", |quantity| quantity.description)
 }
 
-/// Right value: the reference, or the bound of the limit that it breaks where there is none, or none but zero.
-fn expected(metric: &Metric) -> Option<f64> {
-    let reference = metric.reference.as_ref().and_then(|reference| reference.value).filter(|value| *value != 0.0);
-    let bound = || {
-        Some(match metric.gate.as_ref()?.limit {
-            Limit::AtMost(bound) | Limit::AtLeast(bound) => bound,
-            Limit::Within(lower, _) if metric.value < lower => lower,
-            Limit::Within(_, upper) => upper,
-        })
-    };
-    reference.or_else(bound)
-}
-
-/// Logarithm of how many times too large or too small a value is; of the wrong sign, of one and its error over what is expected; infinite
-/// for zero and for no number.
+/// How far a value is beyond its limit, as a share of the limit, as the page of all gates has it; infinite for no number.
 fn distance(metric: &Metric) -> f64 {
-    let ratio = expected(metric).map_or(f64::NAN, |expected| metric.value / expected);
-    match ratio {
-        positive if positive > 0.0 => libm::log(positive).abs(),
-        negative if negative < 0.0 => libm::log(2.0 - negative),
-        _ => f64::INFINITY,
-    }
+    margin_share(metric).map_or(f64::INFINITY, |share| -share)
 }
 
 /// The reference, and the distance from it, between value and limit.
