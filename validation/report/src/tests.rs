@@ -137,7 +137,11 @@ fn an_expected_failure_is_first_but_no_alarm() {
     report.expected_failures = known("bagnold", "wall_slip", 0.8);
     let judgement = judge(&report);
     assert_eq!(judgement.contradictions.len(), 1, "a listed gate that passes");
-    assert!(html(&report).contains("remove the entry"));
+    let counts = [Severity::UnexpectedPass, Severity::NewFailure].map(|own| judgement.tally().of(own));
+    assert_eq!(counts, [1, 1], "the other gate fails and is not listed any more");
+    let page = html(&report);
+    assert!(page.contains("remove the entry") && page.contains("1 new failure; "));
+    assert!(page.contains("1 expected failure no longer failing"), "which is no new failure");
 }
 
 #[test]

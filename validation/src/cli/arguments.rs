@@ -34,7 +34,7 @@ const EXAMPLES: &str = "Examples:
   bagnold grains slopes.toml                   grains of a DEM code, averaged to fields and points of a friction law
   bagnold examples                             sample calibrations, scenes, sweeps
 
-Exit codes: 0 no new failure, 1 a new failure or a gate not judged, 2 bad input, 3 a run diverged.";
+Exit codes: 0 all as expected, 1 a new failure, an unexpected pass or a gate not judged, 2 bad input, 3 a run diverged.";
 
 const RUN_EXAMPLES: &str = "Examples:
   bagnold run film
@@ -79,7 +79,7 @@ Runs with this output always start from the beginning.
 The output folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv and figures/.
 It also receives snapshots/*.pvd for ParaView.
 
-Exit codes: 0 no new failure, 1 a new failure or a gate not judged, 2 bad input, 3 a run diverged.";
+Exit codes: 0 all as expected, 1 a new failure, an unexpected pass or a gate not judged, 2 bad input, 3 a run diverged.";
 
 const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
@@ -91,7 +91,7 @@ const REPORT_EXAMPLES: &str = "Examples:
 
 The report is one self-contained folder. Its index.html links to a page of every case; failures come first.
 
-Exit codes: 0 no new failure, 1 a new failure or a gate not judged, 2 bad input, 3 a run diverged.
+Exit codes: 0 all as expected, 1 a new failure, an unexpected pass or a gate not judged, 2 bad input, 3 a run diverged.
 With --deny moved, the exit code is also 1 if a value moved.";
 
 const CALIBRATE_EXAMPLES: &str = "Examples:
