@@ -33,7 +33,7 @@ pub struct Simulation<const D: usize> {
 
 /// The dimensions whose loops are compiled with the solver, once, and not again in every crate that takes a step.
 ///
-/// The loops are generic in the number of axes, and Rust compiles a generic function where it is used. These two methods
+/// The loops are generic in the number of axes, and Rust compiles a generic function where it is used. These methods
 /// are not generic: they keep the hot code in this crate, under its own level of optimisation.
 pub trait Compiled<const D: usize>: Sized {
     /// Searches the first neighbours and computes what the first step starts from.
@@ -63,7 +63,7 @@ pub trait Compiled<const D: usize>: Sized {
     /// Energies and where they came from.
     fn compiled_energy(&self) -> Option<EnergyAccount>;
 
-    /// Side of facets on which a place is, by their tree: in an unoptimised package it takes ten times as long.
+    /// Side of facets on which a place is, by their tree.
     fn compiled_side(tree: &FacetTree, facets: &[Facet<D>], place: &Vector<D>) -> Option<FacetSide>;
 }
 
