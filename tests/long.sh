@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests that `cargo test` leaves out because they take minutes: modules `long` of the targets. Paper tier, full studies and the built
-# book have commands of their own.
+# Tests that `cargo test` leaves out because they take minutes: modules `long` of the targets. Paper tier and full studies
+# have commands of their own.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 cargo test --tests --no-fail-fast -- --ignored long::
