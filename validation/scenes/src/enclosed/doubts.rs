@@ -1,11 +1,14 @@
 //! Lengths of a scene that are possible but unlikely, because they were given in millimetres, and a start that is.
 
+use super::filling::holder;
 use super::flow::Dimension;
+use super::lattice::{LatticeGroup, groups};
 use super::measure::Measurand;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall};
 use super::sides::SceneSides;
 use super::{BodyPreparation, SceneFlow};
+use crate::checkpoint::is_interrupted;
 
 use bagnold_number::four_digits;
 use bagnold_solver::domain::AxisBoundary;
@@ -27,7 +30,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Warnings of lengths that are probably in millimetres, all of them or those of one part, and of a start without shear stress.
     pub(super) fn doubtful_parts(&self) -> Vec<String> {
         let found = self.stray().or_else(|| self.all_large()).into_iter().chain(self.sudden_release());
-        let found = found.chain(self.cut_by_periods());
+        let found = found.chain(self.cut_by_periods()).chain(self.without_particles());
         found.map(|doubt| format!("scene `{}`: {doubt}", self.name)).chain(self.wide_gauges()).collect()
     }
 
@@ -61,6 +64,20 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             })
         };
         self.bodies.iter().enumerate().flat_map(of_body)
+    }
+
+    /// Bodies in which no place of a particle lies, but in those before them.
+    fn without_particles(&self) -> impl Iterator<Item = String> {
+        groups(&self.bodies, &self.sides, self.spacing).into_iter().flat_map(move |LatticeGroup { lattice, bodies }| {
+            bodies.into_iter().filter_map(move |body| {
+                let sites = || lattice.sites(self.bodies[body].extent());
+                let is_filled = || sites().any(|(_, place)| holder(&self.bodies, &place) == Some(body));
+                let what = format!(
+                    "`bodies[{body}]` has no particle of its own: it is thinner than a spacing or inside of others"
+                );
+                (!is_interrupted() && !is_filled()).then_some(what + "; reduce `spacing`, or remove it")
+            })
+        })
     }
 
     /// The geometry as a whole: too many grains across it, or over before anything could fall.
@@ -227,6 +244,18 @@ mod tests {
         assert!(doubt(-0.1, 0.1).contains("0.1 m of `bodies[0]` lie beyond a periodic side and are left out"));
         assert!(doubt(0.05, 0.25).contains("0.05 m of `bodies[0]`"));
         assert_eq!([doubt(0.0, 0.2), doubt(-0.1, 0.3), doubt(0.05, 0.15)].concat(), "");
+    }
+
+    #[test]
+    fn a_body_without_a_particle_is_told_and_one_of_a_row_is_not() {
+        let beside = |lower: f64, upper: f64| {
+            let body = |(left, right)| PlaneBody::Box { lower: (left, 0.0), upper: (right, 0.1), velocity: (0.0, 0.0) };
+            doubts(|scene| scene.bodies = vec![body((0.0, 0.2)), body((lower, upper))])
+        };
+        let told = "scene `step`: `bodies[1]` has no particle of its own: it is thinner than a spacing or inside of others; \
+                    reduce `spacing`, or remove it";
+        assert_eq!([beside(0.2, 0.204), beside(0.4, 0.402), beside(0.05, 0.15)], [told; 3]);
+        assert_eq!([beside(0.2, 0.21), beside(0.4, 0.408), beside(0.1, 0.3)], [""; 3]);
     }
 
     #[test]

@@ -147,7 +147,7 @@ pub(crate) enum SiteFate {
 }
 
 /// The first body that holds a place, if any does, by its place among all.
-fn holder<const D: usize>(bodies: &[impl SceneBody<D>], place: &Vector<D>) -> Option<usize> {
+pub(super) fn holder<const D: usize>(bodies: &[impl SceneBody<D>], place: &Vector<D>) -> Option<usize> {
     bodies.iter().position(|body| body.holds(place))
 }
 
