@@ -121,16 +121,14 @@ pub(super) fn known_to_closures(metrics: Vec<Metric>, draws: &[Vec<Metric>]) -> 
             return metric;
         }
         values.sort_by(f64::total_cmp);
-        let mean = crate::statistics::mean(&values);
-        let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-        let deviation = (squares / (values.len() - 1) as f64).sqrt();
+        let (mean, variance) = crate::statistics::mean_and_variance(values.iter().copied());
         let (low, high) = nine_tenths(&values);
         let words = format!(
             "{} draws of the closures over the ranges of the literature (five drag laws, length over which the bed's roughness fades, \
              friction, dilation, κ): mean {mean:.3}, nine tenths of them {low:.3} to {high:.3}",
             values.len()
         );
-        metric.known_to(Origin::Input, Some(deviation), &words)
+        metric.known_to(Origin::Input, Some(variance.sqrt()), &words)
     };
     metrics.into_iter().map(with_draws).collect()
 }

@@ -171,29 +171,6 @@ impl Default for BedLoad1dFlow {
     }
 }
 
-impl BedLoad1dFlow {
-    /// The rules between fields.
-    pub(super) fn checked(&self) -> Result<(), ParameterError> {
-        if self.grain_density <= self.fluid_density {
-            let (rule, remedy) =
-                ("greater than the water density", "give it in kg/m³; floating grains form no bed load");
-            return Err(ParameterError::field("grain_density", self.grain_density, rule, remedy));
-        }
-        rules::refuse("closures", self.closures.problem())?;
-        match self.stream {
-            LayerStream::Slope(own) => {
-                own.check()?;
-                self.check_sliding("stream.slope", own.slope)
-            }
-            LayerStream::ShieldsNumber(own) => {
-                own.lengths.check()?;
-                self.check_sliding("stream.shields_number", own.shields_number)
-            }
-            LayerStream::Onset(lengths) => lengths.check(),
-        }
-    }
-}
-
 impl SlopedStream {
     fn check(&self) -> Result<(), ParameterError> {
         let Self { depth, bed_depth, held_depth, cell_height, .. } = *self;
@@ -225,6 +202,27 @@ impl GrainUnits {
 }
 
 impl BedLoad1dFlow {
+    /// The rules between fields.
+    pub(super) fn checked(&self) -> Result<(), ParameterError> {
+        if self.grain_density <= self.fluid_density {
+            let (rule, remedy) =
+                ("greater than the water density", "give it in kg/m³; floating grains form no bed load");
+            return Err(ParameterError::field("grain_density", self.grain_density, rule, remedy));
+        }
+        rules::refuse("closures", self.closures.problem())?;
+        match self.stream {
+            LayerStream::Slope(own) => {
+                own.check()?;
+                self.check_sliding("stream.slope", own.slope)
+            }
+            LayerStream::ShieldsNumber(own) => {
+                own.lengths.check()?;
+                self.check_sliding("stream.shields_number", own.shields_number)
+            }
+            LayerStream::Onset(lengths) => lengths.check(),
+        }
+    }
+
     /// The stream; at the onset of motion, that of Shields' curve.
     pub fn stream(&self) -> Stream {
         match self.stream {

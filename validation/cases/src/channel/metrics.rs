@@ -47,11 +47,9 @@ impl ChannelObservation {
 pub fn observed(quantity: Quantity, variant: &Variant, estimate: FittedValue, factor: f64) -> Metric {
     let noise = (SNAPSHOT_ERRORS * factor * estimate.standard_error).abs();
     let scatter = (factor * estimate.standard_error).abs();
-    quantity.of(variant, factor * estimate.value).with_snapshot_tolerance(1e-3, noise).known_to(
-        Origin::Repeat,
-        Some(scatter),
-        "standard error of the mean over blocks of the averaging window",
-    )
+    let source = "standard error of the mean over blocks of the averaging window";
+    let metric = quantity.of(variant, factor * estimate.value).with_snapshot_tolerance(1e-3, noise);
+    metric.known_to(Origin::Repeat, Some(scatter), source)
 }
 
 /// The number of particles that ended below the floor or far above the surface, gated at 0.

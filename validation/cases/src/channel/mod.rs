@@ -174,13 +174,8 @@ impl<'a> Channel<'a> {
         let longest = self.longest();
         let frame_interval = longest / (self.frames.max(2) - 1) as f64;
         // the bed's impulse is that of every step, so the probe sees every step
-        let stage = SimulationStage {
-            progress,
-            end: longest,
-            interval: 1e-3 * self.numerics.time_step,
-            window: self.window + self.interval,
-            context: &(),
-        };
+        let (interval, window) = (1e-3 * self.numerics.time_step, self.window + self.interval);
+        let stage = SimulationStage { progress, end: longest, interval, window, context: &() };
         let begin = |simulation: &IncompressibleSimulation<2>| ChannelObserver {
             probe: ChannelProbe::new(self),
             last_good: simulation.snapshot(),

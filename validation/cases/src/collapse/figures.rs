@@ -311,12 +311,8 @@ fn pictures<const D: usize>(run: &ColumnFlow<D>, frames: &[Frame]) -> Figure {
             field_panel(frame, &time, [x, Axis::linear("y/r0 [-]").between(0.0, high)], (r, run.spacing()), drawn)
         })
     });
-    Figure::new(
-        &format!("pictures-{}", stem(run)),
-        &format!("{}: speed (left) and pressure (right) during the collapse and in the deposit.", label(run)),
-        panels.collect(),
-    )
-    .in_columns(2)
+    let caption = format!("{}: speed (left) and pressure (right) during the collapse and in the deposit.", label(run));
+    Figure::new(&format!("pictures-{}", stem(run)), &caption, panels.collect()).in_columns(2)
 }
 
 /// Field drawn in a picture: values, label, limits.

@@ -169,9 +169,7 @@ pub(crate) fn unmeasured() -> LayerObservation {
             relative_height: nothing(),
             pressure_noise: Vec::new(),
         },
-        profile: DepthProfile::default(),
-        energy: crate::observation::EnergyBook::default(),
-        particles_lost: 0,
+        ..LayerObservation::default()
     }
 }
 

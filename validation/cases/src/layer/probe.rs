@@ -73,7 +73,7 @@ impl DepthProfile {
 }
 
 /// All that a layer's run leaves behind.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct LayerObservation {
     /// Depth means over the whole run.
     pub series: TimeSeries,
@@ -162,9 +162,7 @@ impl LayerProbe {
             let normal = pressure - snapshot.stress[a][(1, 1)];
             let bin = ((y / self.height * BINS as f64).max(0.0) as usize).min(BINS - 1);
             let values = [y, snapshot.velocity[a][0], pressure, normal, snapshot.stress[a][(0, 1)], 1.0];
-            for (sum, value) in self.sums[bin].iter_mut().zip(values) {
-                *sum += value;
-            }
+            self.sums[bin].iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
         }
     }
 

@@ -142,12 +142,10 @@ fn heap(records: &[&Record]) -> Figure {
 }
 
 fn chute(records: &[&Record]) -> Figure {
-    let mut velocity = Panel::new("", Axis::linear("distance from the wall/D [-]"), Axis::linear("u/√(g D) [-]"));
-    let mut lag = Panel::new(
-        "",
-        Axis::linear("distance from the wall/D [-]"),
-        Axis::logarithmic("1 − u/u in the middle [-]").between(LEAST, 1.0),
-    );
+    let distance = || Axis::linear("distance from the wall/D [-]");
+    let mut velocity = Panel::new("", distance(), Axis::linear("u/√(g D) [-]"));
+    let lags = Axis::logarithmic("1 − u/u in the middle [-]").between(LEAST, 1.0);
+    let mut lag = Panel::new("", distance(), lags);
     for (slot, (run, record)) in records.iter().enumerate() {
         let Some(exact) = run.exact(&record.data) else { continue };
         let (diameter, scale, half_width) = (run.diameter(), speed(run), exact.shear.thickness);

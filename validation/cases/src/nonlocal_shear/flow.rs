@@ -175,13 +175,8 @@ impl Flow for NonlocalShearFlow {
 
     fn simulate(&self, progress: &Progress) -> Result<Recorded<ShearObservation>, ParameterError> {
         self.with_channel(self.steady(&self.nominal()), |channel| {
-            let stage = SimulationStage {
-                progress,
-                end: self.duration,
-                interval: self.duration / SAMPLES,
-                window: 0.0,
-                context: &(),
-            };
+            let (end, interval) = (self.duration, self.duration / SAMPLES);
+            let stage = SimulationStage { progress, end, interval, window: 0.0, context: &() };
             let watched = watch(
                 stage,
                 |beginning| channel.scene(beginning),

@@ -111,12 +111,9 @@ fn beads() -> Figure {
         let (top, bottom) = (beads.upper[0].1, beads.deposit[0].1);
         let rise = beads.rise_under(velocity);
         let meet = (top - bottom) / (velocity + rise);
-        panel.line(
-            drag_curves::label(law),
-            drag_curves::slot(law),
-            scaled(&[(0.0, top), (meet, top - velocity * meet)]),
-        );
-        panel.line("", drag_curves::slot(law), scaled(&[(0.0, bottom), (meet, bottom + rise * meet)]));
+        let (label, slot) = (drag_curves::label(law), drag_curves::slot(law));
+        panel.line(label, slot, scaled(&[(0.0, top), (meet, top - velocity * meet)]));
+        panel.line("", slot, scaled(&[(0.0, bottom), (meet, bottom + rise * meet)]));
     }
     Figure::new(
         "beads",

@@ -99,13 +99,8 @@ impl Probe {
             interval: duration / SAMPLES,
         };
         // momentum is that of every step
-        let stage = SimulationStage {
-            progress,
-            end: duration,
-            interval: 1e-3 * scene.numerics.time_step,
-            window: 0.0,
-            context: &(),
-        };
+        let interval = 1e-3 * scene.numerics.time_step;
+        let stage = SimulationStage { progress, end: duration, interval, window: 0.0, context: &() };
         let begin = |simulation: &IncompressibleSimulation<2>| SettlingObserver {
             momentum: Vector::zeros(),
             time: 0.0,

@@ -67,16 +67,13 @@ fn heights(run: &WaterColumnFlow, data: &ColumnObservation, delay: f64) -> Vec<M
     let samples: Vec<(f64, f64)> = data.time.iter().copied().zip(data.height.iter().copied()).collect();
     // the release of their column was no gate's
     let is_free = !run.is_gated();
+    let row = Some(100.0 / (run.aspect_ratio * run.resolution as f64) / 12.0_f64.sqrt());
     let metric = |quantity: crate::metric::Quantity, delay: f64| {
         quantity
             .of(&run.variant(), 100.0 * height_error(&samples, measured, delay))
             .against(Some(0.0), &measured.source, measured.confidence)
             .known_to(Origin::Digitisation, Some(100.0 * HEIGHT_READING), "half of the last digit (uniform)")
-            .known_to(
-                Origin::Numerical,
-                Some(100.0 / (run.aspect_ratio * run.resolution as f64) / 12.0_f64.sqrt()),
-                "the surface of particles is known within one row (uniform distribution)",
-            )
+            .known_to(Origin::Numerical, row, "the surface of particles is known within one row (uniform distribution)")
             .with_snapshot_tolerance(0.1, 0.1)
     };
     let reason = "2.5 %: one of 40 particle rows over the height; measured times, nothing fitted";

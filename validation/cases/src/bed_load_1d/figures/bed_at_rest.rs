@@ -12,11 +12,8 @@ use crate::shared::percent;
 pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Figure {
     let panel = |&(run, state): &SolvedLayer<'_>| {
         let stream = run.stream();
-        let mut panel = Panel::new(
-            &percent(stream.slope),
-            Axis::logarithmic("z/d [-]").between(0.02, 12.0),
-            Axis::linear("u_f/u_* [-]"),
-        );
+        let height = Axis::logarithmic("z/d [-]").between(0.02, 12.0);
+        let mut panel = Panel::new(&percent(stream.slope), height, Axis::linear("u_f/u_* [-]"));
         let curve = |state: &LayerState| {
             let above = (0..state.height.len()).filter(|&k| state.height[k] > 0.0);
             let scale = stream.shear_velocity();
@@ -49,11 +46,9 @@ fn open_panel(records: &[BedLoad1dRecord], &(run, state): &SolvedLayer<'_>) -> O
     let heights: Vec<usize> =
         (0..record.data.state.height.len()).filter(|&k| record.data.state.height[k] > 0.0).collect();
     let place = |k: usize| record.data.state.height[k] / stream.grain_diameter;
-    let mut panel = Panel::new(
-        &format!("{}, moving minus at rest", percent(stream.slope)),
-        Axis::logarithmic("z/d [-]").between(0.02, 12.0),
-        Axis::linear("difference of u_f, over u_* [-]"),
-    );
+    let height = Axis::logarithmic("z/d [-]").between(0.02, 12.0);
+    let title = format!("{}, moving minus at rest", percent(stream.slope));
+    let mut panel = Panel::new(&title, height, Axis::linear("difference of u_f, over u_* [-]"));
     let band = heights.iter().filter_map(|&k| {
         let mut values: Vec<f64> = record.data.draws.drawn.iter().flatten().map(|layer| difference(layer, k)).collect();
         values.sort_by(f64::total_cmp);

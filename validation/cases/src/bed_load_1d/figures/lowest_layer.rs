@@ -9,11 +9,8 @@ use crate::statistics::{Exponent, power_law};
 /// The water among moving grains beside the measured sheet flow.
 pub(super) fn figure(layers: &[SolvedLayer<'_>], speed: f64) -> Option<Figure> {
     let measured = &*SHEET_FLOW_LOWEST_VELOCITY;
-    let mut panel = Panel::new(
-        "",
-        Axis::logarithmic("height above the grains at rest, over d [-]"),
-        Axis::logarithmic("u_f/u_* [-]"),
-    );
+    let height = Axis::logarithmic("height above the grains at rest, over d [-]");
+    let mut panel = Panel::new("", height, Axis::logarithmic("u_f/u_* [-]"));
     panel.points("Sumer et al. 1996, τ* = 1.4", 0, measured.points.iter().copied());
     let fit = |name: &str, law: Exponent, range: (f64, f64)| {
         let point = |z: f64| (z, law.coefficient * libm::pow(z, law.value));

@@ -70,11 +70,8 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
 
 /// The water of the duct beside the measured points; none without the layers.
 fn duct_panel(records: &[BedLoad1dRecord]) -> Option<Panel> {
-    let mut duct = Panel::new(
-        "Sumer et al. 1996, τ* 1.4",
-        Axis::linear("u_f/u_* [-]"),
-        Axis { limits: Some((0.0, 23.0)), ..Axis::linear("height above grains at rest, over d [-]") },
-    );
+    let height = Axis::linear("height above grains at rest, over d [-]").between(0.0, 23.0);
+    let mut duct = Panel::new("Sumer et al. 1996, τ* 1.4", Axis::linear("u_f/u_* [-]"), height);
     let measured = &SHEET_FLOW_LOWEST_VELOCITY.points;
     duct.points("measured", 0, measured.iter().map(|&(z, u)| (u, z)));
     for (run, state) in of(records, |run| run.published() == Some("duct")) {

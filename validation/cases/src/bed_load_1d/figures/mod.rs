@@ -34,11 +34,7 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
     let mut panels = [
         Panel::new("water", Axis::linear("u_f/u_* [-]"), Axis::logarithmic("z/d [-]").between(0.02, 12.0)),
         Panel::new("grains", Axis::linear("u_s [m/s]"), height()),
-        Panel::new(
-            "tail of the grains",
-            Axis { limits: Some((1e-4, 2.0)), ..Axis::logarithmic("u_s [m/s]") },
-            height(),
-        ),
+        Panel::new("tail of the grains", Axis::logarithmic("u_s [m/s]").between(1e-4, 2.0), height()),
         Panel::new("solid fraction", Axis::linear("φ [-]"), height()),
         Panel::new("drag on the grains", Axis::linear("K (u_f − u_s) [kN/m³]"), height()),
         Panel::new("stresses", Axis { limits: Some((0.0, 1.6)), ..Axis::linear("τ/(ρ_f g h tanθ) [-]") }, height()),

@@ -69,14 +69,11 @@ pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, speed: f64) -> Ve
             POWER_LAW_MISFIT.of(&variant, 100.0 * misfit.relative),
             POWER_LAW_MISFIT_RATIO.of(&variant, misfit.over_logarithm),
         ];
+        let theirs = "standard error of the fit to their points";
         let exponent = LOWEST_LAYER_EXPONENT
             .of(&variant, law.value)
             .against(Some(measured.law.value), &measured.source, measured.confidence)
-            .known_to(
-                Origin::Digitisation,
-                Some(measured.law.standard_error),
-                "standard error of the fit to their points",
-            )
+            .known_to(Origin::Digitisation, Some(measured.law.standard_error), theirs)
             .known_to(Origin::Numerical, Some(law.standard_error), "standard error of the fit to the cells");
         let misfits = misfits.map(|misfit| misfit.against(None, power, Confidence::Medium));
         metrics.extend(misfits.into_iter().chain([exponent]).map(|own| own.with_snapshot_tolerance(0.01, 0.0)));
@@ -90,19 +87,14 @@ pub(super) fn beside_measured(run: &BedLoad1dFlow, state: &LayerState) -> Option
     let MeasuredBand { median, bounds, deviation, number } = measured_rates_about(shields)?;
     let MeasuredPoints { source, confidence, .. } = &*MEASURED_TRANSPORT;
     let expected = median * TransportFormula::WongParker.transport(shields);
+    let scatter = "half of the width of the middle two thirds of the runs within a factor of 1.3 in the Shields number, each over Wong & \
+                   Parker's formula";
+    let reason = "limits enclose 90 % of rates measured within a factor of 1.3 in Shields number";
     let metric = TRANSPORT_OVER_MEASURED
         .of(&run.variant(), state.transport() / expected)
         .against(Some(1.0), &format!("median of {number} runs, {source}"), *confidence)
-        .known_to(
-            Origin::Experiment,
-            Some(deviation / median),
-            "half of the width of the middle two thirds of the runs within a factor of 1.3 in the Shields number, each over Wong & \
-             Parker's formula",
-        )
-        .gated(
-            Limit::Within(bounds.0 / median, bounds.1 / median),
-            "limits enclose 90 % of rates measured within a factor of 1.3 in Shields number",
-        )
+        .known_to(Origin::Experiment, Some(deviation / median), scatter)
+        .gated(Limit::Within(bounds.0 / median, bounds.1 / median), reason)
         .with_snapshot_tolerance(1e-3, 0.0);
     Some(metric)
 }

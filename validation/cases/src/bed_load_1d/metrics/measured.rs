@@ -88,15 +88,13 @@ pub(super) fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
         let (run, record) = layer;
         let (theirs, variant) = (of.profiles(), run.variant());
         let ratio = |state: &LayerState| state.transport() / theirs.transport;
+        let thinned = "the thinned points integrate to within 6 % of all points, taken as a uniform distribution";
+        let reading = Some(THINNED * record.data.state.transport() / theirs.transport);
         let metric = TRANSPORT_RATIO
             .of(&variant, ratio(&record.data.state))
             .against(Some(1.0), &theirs.source, Confidence::Medium)
             .with_snapshot_tolerance(1e-3, 0.0)
-            .known_to(
-                Origin::Digitisation,
-                Some(THINNED * record.data.state.transport() / theirs.transport),
-                "the thinned points integrate to within 6 % of all points, taken as a uniform distribution",
-            );
+            .known_to(Origin::Digitisation, reading, thinned);
         metrics.push(if run.is_suspended() {
             let reason = "factor 1.5, set before the runs: stricter than the factor 2 usual for total-load formulas";
             suspension::with_spread(metric, records, (run, &record.data.state), |_, state| ratio(state))

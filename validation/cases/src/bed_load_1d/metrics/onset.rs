@@ -43,28 +43,18 @@ fn beside_measured(
     let creep = (criterion.onset(&data.scan_at_half_rate).value() / crossing.value() - 1.0).abs();
     let remark = crossing.remark();
     let source = format!("median of {} measured thresholds, {}{remark}", band.number, thresholds.source);
+    let scatter =
+        "half of the width of the middle two thirds of the thresholds with grains within a factor of two in size";
+    let bent = "distance of the straight line in logarithms between two Shields numbers of the scan to the parabola through three";
+    let creeping = "change with half the regularisation rate of the yield stress; without creep the change is about twice as large";
+    let reason = "limits enclose 90 % of thresholds measured with grains of 0.5 to 2 times this size";
     let metric = ONSET_OVER_MEASURED
         .of(&run.variant().and("criterion", name), value)
         .against(Some(1.0), &source, thresholds.confidence)
-        .known_to(
-            Origin::Experiment,
-            Some(band.deviation / band.median),
-            "half of the width of the middle two thirds of the thresholds with grains within a factor of two in size",
-        )
-        .known_to(
-            Origin::Numerical,
-            Some(value * criterion.bend(&data.scan)),
-            "distance of the straight line in logarithms between two Shields numbers of the scan to the parabola through three",
-        )
-        .known_to(
-            Origin::Numerical,
-            Some(value * creep),
-            "change with half the regularisation rate of the yield stress; without creep the change is about twice as large",
-        )
-        .gated(
-            Limit::Within(lower / band.median, upper / band.median),
-            "limits enclose 90 % of thresholds measured with grains of 0.5 to 2 times this size",
-        )
+        .known_to(Origin::Experiment, Some(band.deviation / band.median), scatter)
+        .known_to(Origin::Numerical, Some(value * criterion.bend(&data.scan)), bent)
+        .known_to(Origin::Numerical, Some(value * creep), creeping)
+        .gated(Limit::Within(lower / band.median, upper / band.median), reason)
         .with_snapshot_tolerance(0.01, 0.0);
     Some(metric)
 }

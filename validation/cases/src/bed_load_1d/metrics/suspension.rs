@@ -34,11 +34,8 @@ pub(super) fn with_spread(
             None => numerical = Some((other - own).abs() / 3.0),
         }
     }
-    metric.known_to(Origin::Input, Some(spread.standard()), &spread.words()).known_to(
-        Origin::Numerical,
-        numerical,
-        "a third of the change with cells twice as high (second order)",
-    )
+    let metric = metric.known_to(Origin::Input, Some(spread.standard()), &spread.words());
+    metric.known_to(Origin::Numerical, numerical, "a third of the change with cells twice as high (second order)")
 }
 
 /// Root mean square of u_f less theirs over their largest `[%]`, from the level where grains have a speed over u_*.
@@ -71,11 +68,9 @@ pub(super) fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
             RESTING.1, RESTING.2, RESTING.0, ends[0], ends[1]
         );
         let value = |run: &BedLoad1dFlow, state: &LayerState| duct_difference(run, state, RESTING.0);
-        metrics.push(with_spread(metric, records, (run, state), value).known_to(
-            Origin::Digitisation,
-            Some((ends[0] - ends[1]).abs() / 12.0_f64.sqrt()),
-            &words,
-        ));
+        let metric = with_spread(metric, records, (run, state), value);
+        let by_level = Some((ends[0] - ends[1]).abs() / 12.0_f64.sqrt());
+        metrics.push(metric.known_to(Origin::Digitisation, by_level, &words));
     }
     metrics
 }

@@ -175,20 +175,17 @@ fn against_layer(stage: BedLoadFormulation, flows: &[(&BedLoadFlow, String, BedL
             fraction.points("", slot, own);
         }
     }
-    let panels = match stage {
-        BedLoadFormulation::Porous => vec![water, close],
-        BedLoadFormulation::Dilating => vec![water, close, grains, fraction],
-        _ => vec![water, close, grains],
+    let (panels, others) = match stage {
+        BedLoadFormulation::Porous => (vec![water, close], ""),
+        BedLoadFormulation::Dilating => {
+            (vec![water, close, grains, fraction], ", (c) the grains and (d) their solid fraction")
+        }
+        _ => (vec![water, close, grains], " and (c) the grains"),
     };
     let name = stage.name();
-    let near = match stage {
-        BedLoadFormulation::Porous => "(b) the water near the bed",
-        BedLoadFormulation::Dilating => "(b) the water near the bed, (c) the grains and (d) their solid fraction",
-        _ => "(b) the water near the bed and (c) the grains",
-    };
     let caption = format!(
         "Volume-fraction formulation, stage `{name}`, against an independent 1-D solution with the same closures: \
-         velocity of (a) the water over the whole depth, {near}."
+         velocity of (a) the water over the whole depth, (b) the water near the bed{others}."
     );
     Figure::new(&format!("layer-{name}"), &caption, panels)
 }

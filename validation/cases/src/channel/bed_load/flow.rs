@@ -260,9 +260,7 @@ impl BedLoadFlow {
         rules::between("averaging_time", self.averaging_time, 0.05, self.duration, remedy)?;
         if self.formulation.is_continuum() { self.check_continuum() } else { self.check_particles() }
     }
-}
 
-impl BedLoadFlow {
     fn check_particles(&self) -> Result<(), ParameterError> {
         let (grains, diameter) = (&self.particles, self.grain_diameter);
         rules::material("particles.material", &grains.material)?;

@@ -20,16 +20,13 @@ pub(super) const LAYERS: [(f64, f64); 4] = [(5e-4, 3.5e-3), (3e-3, 8e-3), (8e-3,
 
 /// Slope of u over ln(z + z_0) between two heights, over u_*/κ `[-]`.
 pub(super) fn semi_log_slope(run: &BedLoadFlow, points: &[ProfilePoint], lower: f64, upper: f64) -> f64 {
-    let law = run.clear_water();
     let inside = points.iter().filter(|point| point.height >= lower && point.height <= upper);
     let pairs: Vec<(f64, f64)> = inside.map(|point| (log_height(run, point.height), point.velocity)).collect();
     if pairs.len() < 2 {
         return f64::NAN;
     }
-    linear_fit(&pairs).map_or_else(
-        || (pairs[1].1 - pairs[0].1) / (pairs[1].0 - pairs[0].0) / law.semi_logarithmic_slope(),
-        |fit| fit.slope / law.semi_logarithmic_slope(),
-    )
+    let between_two = || (pairs[1].1 - pairs[0].1) / (pairs[1].0 - pairs[0].0);
+    linear_fit(&pairs).map_or_else(between_two, |fit| fit.slope) / run.clear_water().semi_logarithmic_slope()
 }
 
 /// Most layers that are looked for: the paper sees three.
@@ -92,9 +89,8 @@ pub(super) fn moves_above(points: &[ProfilePoint], speed: f64) -> f64 {
 
 /// Root mean square of u_f − u_1D over 0.5 mm … 0.9 h, over u_* `[-]`.
 pub(super) fn fluid_rms(run: &BedLoadFlow, points: &[ProfilePoint], layer: &LayerState) -> f64 {
-    let law = run.clear_water();
     let errors = compared(run, points).map(|p| (p.velocity - layer.at(p.height).fluid_velocity).powi(2));
-    root_mean(errors) / law.friction_velocity()
+    root_mean(errors) / run.clear_water().friction_velocity()
 }
 
 /// Depth mean of u_f over that of the layer at the same heights `[-]`.

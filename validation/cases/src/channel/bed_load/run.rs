@@ -105,13 +105,8 @@ impl BedLoadFlow {
         layer: Option<&LayerState>,
         progress: &Progress,
     ) -> Result<Recorded<BedLoadObservation>, ParameterError> {
-        let (record, observer) = channel.run_observed(
-            progress,
-            BedLoadObserver::new(self, channel),
-            |observer, simulation, in_window| {
-                observer.observe(simulation, in_window);
-            },
-        )?;
+        let observer = BedLoadObserver::new(self, channel);
+        let (record, observer) = channel.run_observed(progress, observer, BedLoadObserver::observe)?;
         Ok(record.map(|channel| observer.finish(channel, layer)))
     }
 

@@ -57,11 +57,8 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
     let known = |metric: Metric, moved: f64| {
         let standard = 0.5 * moved / run.water.resolution as f64;
-        metric.known_to(
-            Origin::Numerical,
-            Some(standard),
-            "first order in the spacing, from runs of 23, 33 and 46 rows",
-        )
+        let source = "first order in the spacing, from runs of 23, 33 and 46 rows";
+        metric.known_to(Origin::Numerical, Some(standard), source)
     };
     let mean = data.average(&data.series.mean_velocity);
     metrics.extend([

@@ -49,8 +49,7 @@ pub(super) fn rest(records: &[StillWaterRecord]) -> Figure {
         }
         speed.line(&name, slot, series.curve(&series.rms_vertical_velocity, 1.0));
     }
-    for bound in [0.999, 1.001] {
-        let name = if bound < 1.0 { "limits" } else { "" };
+    for (bound, name) in [(0.999, "limits"), (1.001, "")] {
         height.reference(name, [(0.0, bound), (longest, bound)]);
     }
     speed.reference("limit at the end", [(1e-3, 5e-4), (longest, 5e-4)]);

@@ -148,12 +148,8 @@ impl<const D: usize> Flow for ColumnFlow<D> {
         let section = if D == 2 { r } else { std::f64::consts::FRAC_PI_4 * r * r };
         let speed = collapse.fastest(self.density() * section * height);
         let aspect_ratio = Some(self.initial_height());
-        FlowRegime { aspect_ratio, slope_angle: Some(0.0), ..FlowRegime::default() }.of_grains(
-            self.material.grain_diameter(),
-            height,
-            speed,
-            self.gravity,
-        )
+        let regime = FlowRegime { aspect_ratio, slope_angle: Some(0.0), ..FlowRegime::default() };
+        regime.of_grains(self.material.grain_diameter(), height, speed, self.gravity)
     }
 
     fn scales(&self) -> Option<RunScales> {

@@ -45,11 +45,8 @@ pub(crate) fn with_friction<const D: usize>(
         });
         Some(altered.filter_map(|other| Some(difference(other)?.abs())).fold(0.0, f64::max) / 3.0_f64.sqrt())
     };
-    metric.known_to(Origin::Input, widest(Alteration::Friction), FRICTION).known_to(
-        Origin::Input,
-        widest(Alteration::LimitingFriction),
-        RATE,
-    )
+    let metric = metric.known_to(Origin::Input, widest(Alteration::Friction), FRICTION);
+    metric.known_to(Origin::Input, widest(Alteration::LimitingFriction), RATE)
 }
 
 #[cfg(test)]

@@ -48,17 +48,9 @@ impl Fronts {
 /// A metric with the part of its uncertainty that comes from the spacing: by a study of the column, relative `[-]`, else,
 /// for a front, by what a share of a row makes of it, in the metric's unit.
 pub(crate) fn with_resolution(metric: Metric, study: Option<f64>, row: Option<f64>) -> Metric {
+    let by_study = "half of the 95 % interval of the extrapolated value of this column's resolution study";
+    let by_row = "thickness at the toe known within 0.4 particle rows, over the toe's slope: error of columns with 20 to 80 particles over r_0";
     let scale = metric.value.abs();
-    match study {
-        Some(relative) => metric.known_to(
-            Origin::Numerical,
-            Some(relative * scale),
-            "half of the 95 % interval of the extrapolated value of this column's resolution study",
-        ),
-        None => metric.known_to(
-            Origin::Numerical,
-            row,
-            "thickness at the toe known within 0.4 particle rows, over the toe's slope: error of columns with 20 to 80 particles over r_0",
-        ),
-    }
+    let (standard, source) = study.map_or((row, by_row), |relative| (Some(relative * scale), by_study));
+    metric.known_to(Origin::Numerical, standard, source)
 }

@@ -63,14 +63,15 @@ pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
         let limit = Limit::Within((1.0 - MARGIN) * short, (1.0 + MARGIN) * long);
         let source =
             format!("h_0 2k/(tanδ − tanθ), k = {lower} to {upper}, tanδ = μ_s: Mangeney et al. 2010 as quoted");
+        let run_out = observed(FRONT_DISPLACEMENT, &variant, data.run_out() * run.reservoir_length);
+        let row = data.front_uncertainty().map(|uncertainty| uncertainty * run.reservoir_length);
         metrics.extend([
-            with_resolution(
-                observed(FRONT_DISPLACEMENT, &variant, data.run_out() * run.reservoir_length),
-                None,
-                data.front_uncertainty().map(|uncertainty| uncertainty * run.reservoir_length),
-            )
-            .against(Some(0.5 * (short + long)), &source, SLOPE_EXPERIMENT.confidence)
-            .gated_by(is_judged.then_some(limit), "limits are the published fit with k = 0.4 to 0.5, widened by 15 %"),
+            with_resolution(run_out, None, row)
+                .against(Some(0.5 * (short + long)), &source, SLOPE_EXPERIMENT.confidence)
+                .gated_by(
+                    is_judged.then_some(limit),
+                    "limits are the published fit with k = 0.4 to 0.5, widened by 15 %",
+                ),
             at_rest(&variant, data, &run.material, run.duration),
             observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(
                 libm::atan(friction).to_degrees() - run.slope_angle,
@@ -162,11 +163,8 @@ fn of_fields(time: f64, run: &SlopeFlow, record: &Recorded<SlopeCollapse>) -> Op
         metrics.push(of(UNIFORMITY, least / most));
     }
     metrics.extend(inside.front_viscosity.map(|viscosity| {
-        of(FRONT_VISCOSITY, viscosity).against(
-            Some(0.7),
-            "statement: towards the front it falls to less than 0.7 Pa·s; the scan leaves the digit in doubt",
-            Confidence::Unverified,
-        )
+        let falls = "statement: towards the front it falls to less than 0.7 Pa·s; the scan leaves the digit in doubt";
+        of(FRONT_VISCOSITY, viscosity).against(Some(0.7), falls, Confidence::Unverified)
     }));
     Some(metrics)
 }

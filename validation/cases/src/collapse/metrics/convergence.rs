@@ -122,12 +122,8 @@ fn against_law<const D: usize>(study: &ConvergenceStudy<'_, D>, variant: &Varian
     let expected = law.value(study.aspect_ratio);
     let metric = ENSEMBLE_RUN_OUT.of(&variant.clone().and("resolution", mean.resolution), mean.value);
     let limit = expected.map(|expected| band(expected, SAME_LAW));
-    let metric = with_resolution(
-        metric,
-        uncertainty_at(&study.means(Collapse::run_out), mean.resolution),
-        study.row(mean.resolution),
-    );
-    metric
+    let uncertainty = uncertainty_at(&study.means(Collapse::run_out), mean.resolution);
+    with_resolution(metric, uncertainty, study.row(mean.resolution))
         .known_to(Origin::Repeat, Some(mean.standard_error), "standard error of the mean over the seeds")
         .against(expected, &law.source, law.confidence)
         .with_snapshot_tolerance(1e-3, 1e-3)

@@ -85,11 +85,8 @@ pub(super) fn of_run<const D: usize>((run, record): &CollapseRecord<D>, records:
             return metric.against(Some(active), source, Confidence::Unverified);
         };
         let source = "standard error of the line through the measured points";
-        let metric = metric.against(Some(angle), &pile.source, pile.confidence).known_to(
-            Origin::Digitisation,
-            Some(error),
-            source,
-        );
+        let metric = metric.against(Some(angle), &pile.source, pile.confidence);
+        let metric = metric.known_to(Origin::Digitisation, Some(error), source);
         with_friction(metric, records, run, |(other, seen)| {
             wedge_of(other, &seen.frames)?.angle().zip(wedge.angle()).map(|(other, own)| other - own)
         })

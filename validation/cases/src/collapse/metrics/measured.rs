@@ -70,6 +70,7 @@ pub(super) fn of_pile<const D: usize>(
         Some(over_surface(pile, |x, _| thickness(&other.data, x) - thickness(collapse, x)))
     };
     let of_surface = of(SURFACE_DISTANCE.of(&variant, distance), 0.0);
+    let row = Some(100.0 * run.spacing() / pile.height / 12.0_f64.sqrt());
     let mut metrics = vec![
         with_friction(of_run_out, records, run, |(_, other)| Some(other.data.run_out() - own))
             .known_to(Origin::Digitisation, Some(pile.front_reading() / r), READING)
@@ -84,11 +85,7 @@ pub(super) fn of_pile<const D: usize>(
         with_friction(of_surface, records, run, moved)
             .known_to(Origin::Digitisation, Some(100.0 * pile.reading / pile.height), READING)
             .known_to(Origin::Experiment, Some(over_surface(pile, |_, measured| pile.excess() * measured)), AREA)
-            .known_to(
-                Origin::Numerical,
-                Some(100.0 * run.spacing() / pile.height / 12.0_f64.sqrt()),
-                "the surface of particles is known within one row (uniform distribution)",
-            )
+            .known_to(Origin::Numerical, row, "the surface of particles is known within one row (uniform distribution)")
             .gated_by(judged(Limit::AtMost(PILE_SURFACE)), "5 % of the initial height: one particle row of twenty"),
     ];
     let lengths = |run: &ColumnFlow<D>, frames: &[Frame]| {

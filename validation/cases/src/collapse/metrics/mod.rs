@@ -150,16 +150,13 @@ fn flattest<const D: usize>(run: &ColumnFlow<D>) -> Option<f64> {
 /// rests.
 pub(crate) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, longest: f64) -> Metric {
     let stop = collapse.stopping_time();
-    let limit = law.is_plastic().then_some(if stop.is_finite() {
-        Limit::Within(stop, longest)
-    } else {
-        Limit::AtMost(longest)
-    });
+    let limit = if stop.is_finite() { Limit::Within(stop, longest) } else { Limit::AtMost(longest) };
+    let reason = "limits: between the front's stop (at 99 % of its way) and the run's end";
     REST_TIME
         .of(variant, collapse.rest_time())
         .against(None, "grains with a yield stress come to rest", Confidence::Exact)
         .with_snapshot_tolerance(0.02, 0.0)
-        .gated_by(limit, "limits: between the front's stop (at 99 % of its way) and the run's end")
+        .gated_by(law.is_plastic().then_some(limit), reason)
 }
 
 /// Where the true value of a user's own grains lies, by how far those of published ones were off.

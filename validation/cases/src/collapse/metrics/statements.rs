@@ -46,12 +46,9 @@ pub(super) fn of_run<const D: usize>(run: &ColumnFlow<D>, record: &Recorded<Coll
             "statement of the collapse paper: the upper part falls without a change of its shape, still seen at 0.2 s",
         ));
     }
-    metrics.extend(foot_velocity_ratio(run, record).map(|ratio| {
-        stated(
-            FOOT_VELOCITY_RATIO.of(&run.variant(), ratio),
-            "statement of the collapse paper: near the foot of the column the flow is like a plug",
-        )
-    }));
+    let plug = "statement of the collapse paper: near the foot of the column the flow is like a plug";
+    let ratio = foot_velocity_ratio(run, record).map(|ratio| FOOT_VELOCITY_RATIO.of(&run.variant(), ratio));
+    metrics.extend(ratio.map(|ratio| stated(ratio, plug)));
     metrics
 }
 

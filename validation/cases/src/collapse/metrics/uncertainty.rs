@@ -14,11 +14,8 @@ impl Known {
     /// A metric with both parts; without a study, with what a row makes of it in the metric's unit. The laws that it is compared with
     /// give none of their own.
     pub(super) fn of(self, metric: Metric, row: Option<f64>) -> Metric {
-        let scale = metric.value.abs();
-        with_resolution(metric, self.study, row).known_to(
-            Origin::Repeat,
-            Some(self.spread * scale),
-            "largest relative standard deviation over the seeds of the initial displacements",
-        )
+        let source = "largest relative standard deviation over the seeds of the initial displacements";
+        let spread = Some(self.spread * metric.value.abs());
+        with_resolution(metric, self.study, row).known_to(Origin::Repeat, spread, source)
     }
 }

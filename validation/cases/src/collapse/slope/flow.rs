@@ -128,12 +128,8 @@ impl Flow for SlopeFlow {
     fn regime(&self, observation: &SlopeCollapse) -> FlowRegime {
         let speed = observation.collapse.fastest(self.density() * self.reservoir_length * self.initial_height);
         let aspect_ratio = Some(self.initial_height / self.reservoir_length);
-        FlowRegime { aspect_ratio, slope_angle: Some(self.slope_angle), ..FlowRegime::default() }.of_grains(
-            self.material.grain_diameter(),
-            self.initial_height,
-            speed,
-            self.gravity,
-        )
+        let regime = FlowRegime { aspect_ratio, slope_angle: Some(self.slope_angle), ..FlowRegime::default() };
+        regime.of_grains(self.material.grain_diameter(), self.initial_height, speed, self.gravity)
     }
 
     fn scales(&self) -> Option<RunScales> {

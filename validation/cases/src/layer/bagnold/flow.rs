@@ -109,11 +109,8 @@ impl Flow for BagnoldFlow {
     fn check(&self) -> Result<(), ParameterError> {
         self.layer.check()?;
         if !self.is_regularised() {
-            rules::only_mu_i(
-                "material",
-                &self.material,
-                "choose it: the case's reference, Bagnold's profile, is exact for this law only",
-            )?;
+            let remedy = "choose it: the case's reference, Bagnold's profile, is exact for this law only";
+            rules::only_mu_i("material", &self.material, remedy)?;
         }
         rules::material("material", &self.material)?;
         rules::viscous_step("numerics", &self.layer.numerics, &self.material)?;

@@ -35,11 +35,9 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
         }
         let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
         let variant = Variant::of("fluid", "newtonian").and("particles", particles.name()).and("resolution", rows);
-        let order = OBSERVED_ORDER.of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN)).against(
-            None,
-            "convergence to the weakly compressible film, exact for the model",
-            Confidence::Exact,
-        );
+        let order = OBSERVED_ORDER.of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN));
+        let source = "convergence to the weakly compressible film, exact for the model";
+        let order = order.against(None, source, Confidence::Exact);
         metrics.push(match particles {
             Arrangement::Lattice => order
                 .gated(Limit::AtLeast(1.5), "1.5: the project's aim on a lattice")

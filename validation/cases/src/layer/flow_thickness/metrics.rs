@@ -52,6 +52,8 @@ fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
     let judged = flow.surface_name().is_none_or(|surface| surface == "vanishing");
     let bracket = found.bracket();
     let measured = bracket.map_or(f64::NAN, |(stops, flows)| 0.5 * (stops + flows));
+    let uncertainty = bracket.map(|(stops, flows)| (flows - stops) / 12.0_f64.sqrt());
+    let middle = "the angle is the middle of a bracket (uniform distribution over its width)";
     let experiment = flow.incline().stopping_angle(flow.layer.layer_height).to_degrees();
     [
         PARTICLES_LOST
@@ -69,15 +71,8 @@ fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
              thickness, minus the angle found: positive where layers stop on too gentle slopes. A local law has no h_stop",
             GLASS_BEADS_FLOW_RULE.confidence,
         )
-        .known_to(
-            Origin::Numerical,
-            bracket.map(|(stops, flows)| (flows - stops) / 12.0_f64.sqrt()),
-            "the angle is the middle of a bracket (uniform distribution over its width)",
-        )
-        .gated_by(
-            judged.then_some(Limit::Within(-0.5, 0.5)),
-            "0.5°: the accuracy of measured angles of repose",
-        ),
+        .known_to(Origin::Numerical, uncertainty, middle)
+        .gated_by(judged.then_some(Limit::Within(-0.5, 0.5)), "0.5°: the accuracy of measured angles of repose"),
     ]
 }
 

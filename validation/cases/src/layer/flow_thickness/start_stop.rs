@@ -113,17 +113,10 @@ impl SlopeSearch<'_> {
         let threshold = STOPPED * (gravity * h).sqrt();
         let lag = (STEADY_TIME / interval) as usize;
         let stage = SimulationStage { progress, end: duration, interval, window: 0.0, context: search };
-        let begin = |simulation: &Simulation<2>| LayerObserver {
-            means: Vec::new(),
-            trial: SlopeTrial {
-                slope_angle: angle,
-                fate: LayerFate::Undecided,
-                time: 0.0,
-                mean_velocity: f64::NAN,
-                lost: 0,
-            },
-            last_good: simulation.snapshot(),
-        };
+        let fate = LayerFate::Undecided;
+        let trial = SlopeTrial { slope_angle: angle, fate, time: 0.0, mean_velocity: f64::NAN, lost: 0 };
+        let begin =
+            |simulation: &Simulation<2>| LayerObserver { means: Vec::new(), trial, last_good: simulation.snapshot() };
         let followed = follow(
             stage,
             None,
@@ -143,11 +136,8 @@ impl SlopeSearch<'_> {
                 };
                 let lost = snapshot.position.iter().filter(|x| !(x[1] > 0.0 && x[1] < 2.0 * h)).count();
                 *trial = SlopeTrial { slope_angle: angle, fate, time: snapshot.time, mean_velocity: mean, lost };
-                progress.advance(
-                    round * duration + snapshot.time,
-                    rounds * duration,
-                    simulation.steps() as f64 * snapshot.mass.len() as f64,
-                );
+                let work = simulation.steps() as f64 * snapshot.mass.len() as f64;
+                progress.advance(round * duration + snapshot.time, rounds * duration, work);
                 *last_good = snapshot;
                 if fate == LayerFate::Undecided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
@@ -195,18 +185,13 @@ impl SlopeBisection {
     fn enter(&mut self, trial: SlopeTrial) -> bool {
         self.trials.push(trial);
         match (self.trials.len(), trial.fate) {
-            (_, LayerFate::Undecided) => false,
-            (1, fate) => fate == LayerFate::Stops,
-            (2, fate) => fate == LayerFate::Flows,
-            (_, LayerFate::Stops) => {
-                self.stopping = trial.slope_angle;
-                true
-            }
-            (_, LayerFate::Flows) => {
-                self.flowing = trial.slope_angle;
-                true
-            }
+            (_, LayerFate::Undecided) => return false,
+            (1, fate) => return fate == LayerFate::Stops,
+            (2, fate) => return fate == LayerFate::Flows,
+            (_, LayerFate::Stops) => self.stopping = trial.slope_angle,
+            (_, LayerFate::Flows) => self.flowing = trial.slope_angle,
         }
+        true
     }
 }
 

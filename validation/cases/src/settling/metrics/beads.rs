@@ -2,8 +2,9 @@
 //! within hundredths of a per cent, so that what a law says here is what particles with it do.
 
 use super::{DEPOSIT_RISE_OVER_MEASURED, SINKING_OVER_MEASURED};
-use crate::metric::{Limit, Metric, Origin, Variant};
+use crate::metric::{Limit, Metric, Origin, Quantity, Variant};
 use crate::reference::settling::{SETTLING_BEADS, SettlingBeads, SettlingGrains};
+use crate::statistics::FittedValue;
 use bagnold_solver::material::drag::DragLaw;
 
 /// The laws that speak of dense suspensions.
@@ -36,47 +37,33 @@ pub(super) fn all() -> Vec<Metric> {
         let (velocity, by_fraction) = sinking(beads, law)?;
         let variant = Variant::of("law", law.name());
         let numbers = by_numbers(beads, law, velocity);
-        let with_numbers = |metric: Metric| {
-            numbers.iter().fold(metric, |metric, (name, relative)| {
-                let standard = metric.value * relative;
-                metric.known_to(Origin::Input, Some(standard), &format!("{name} ({PRINTED})"))
-            })
-        };
-        let sunk = velocity / beads.sinking.value;
-        let risen = beads.rise_under(velocity) / beads.rise.value;
-        let metric = |metric: Metric| {
-            metric
+        let over_measured = |quantity: Quantity, own: f64, measured: &FittedValue, edge: &str| {
+            let ratio = own / measured.value;
+            let metric = quantity
+                .of(&variant, ratio)
                 .against(Some(1.0), &beads.source, beads.confidence)
                 .gated(
                     Limit::Within(0.5, 2.0),
                     "a factor of two: at solid fraction 0.5, drag laws fitted to different experiments differ nearly as much",
                 )
                 .with_snapshot_tolerance(1e-6, 0.0)
-                .known_to(Origin::Numerical, Some(1e-3), "particles reach the velocity of a law within 0.1 %, by other gates of this case")
+                .known_to(Origin::Numerical, Some(1e-3), "particles reach the velocity of a law within 0.1 %, by other gates of this case");
+            let metric = numbers.iter().fold(metric, |metric, (name, relative)| {
+                metric.known_to(Origin::Input, Some(ratio * relative), &format!("{name} ({PRINTED})"))
+            });
+            let line = format!("standard error of the line through the heights of the {edge}");
+            metric.known_to(Origin::Experiment, Some(ratio * measured.standard_error / measured.value), &line)
         };
+        let sunk = over_measured(SINKING_OVER_MEASURED, velocity, &beads.sinking, "interface");
+        let risen = over_measured(DEPOSIT_RISE_OVER_MEASURED, beads.rise_under(velocity), &beads.rise, "deposit");
+        let of_sunk = sunk.value * by_fraction;
+        let of_risen = risen.value * by_fraction.hypot(beads.rise_known_to());
+        let fraction = "solid fraction (standard deviation over the height at first)";
+        let fractions =
+            "solid fractions (standard deviations of both over the height, for the velocity and for the volumes)";
         Some([
-            with_numbers(metric(SINKING_OVER_MEASURED.of(&variant, sunk)))
-                .known_to(
-                    Origin::Experiment,
-                    Some(sunk * beads.sinking.standard_error / beads.sinking.value),
-                    "standard error of the line through the heights of the interface",
-                )
-                .known_to(
-                    Origin::Input,
-                    Some(sunk * by_fraction),
-                    "solid fraction (standard deviation over the height at first)",
-                ),
-            with_numbers(metric(DEPOSIT_RISE_OVER_MEASURED.of(&variant, risen)))
-                .known_to(
-                    Origin::Experiment,
-                    Some(risen * beads.rise.standard_error / beads.rise.value),
-                    "standard error of the line through the heights of the deposit",
-                )
-                .known_to(
-                    Origin::Input,
-                    Some(risen * by_fraction.hypot(beads.rise_known_to())),
-                    "solid fractions (standard deviations of both over the height, for the velocity and for the volumes)",
-                ),
+            sunk.known_to(Origin::Input, Some(of_sunk), fraction),
+            risen.known_to(Origin::Input, Some(of_risen), fractions),
         ])
     };
     LAWS.iter().filter_map(of_law).flatten().collect()

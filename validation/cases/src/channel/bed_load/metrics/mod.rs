@@ -101,17 +101,8 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Metric> {
 /// Transport that a fit to two slopes predicts on the third, and its parameters.
 fn of_fit(held: &HeldOut) -> Vec<Metric> {
     let variant = Variant::of("held_out_slope", held.slope);
-    let formula = TransportFormula::WongParker;
-    let mut metrics = vec![
-        HELD_OUT_TRANSPORT_RATIO
-            .of(&variant, held.ratio)
-            .against(Some(1.0), formula.name(), formula.confidence())
-            .gated(
-                Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1),
-                "scatter of measured rates; yield stress and viscosity are fitted to the other two slopes",
-            )
-            .with_snapshot_tolerance(0.05, 0.0),
-    ];
+    let ratio = HELD_OUT_TRANSPORT_RATIO.of(&variant, held.ratio);
+    let mut metrics = vec![over_formula(ratio).with_snapshot_tolerance(0.05, 0.0)];
     let values = [
         (FITTED_YIELD_STRESS, held.yield_stress),
         (FITTED_VISCOSITY, held.viscosity),
@@ -119,6 +110,14 @@ fn of_fit(held: &HeldOut) -> Vec<Metric> {
     ];
     metrics.extend(values.map(|(quantity, value)| quantity.of(&variant, value).with_snapshot_tolerance(0.1, 0.05)));
     metrics
+}
+
+/// Transport over that of the formula, by grains whose parameters are fitted on other slopes.
+fn over_formula(ratio: Metric) -> Metric {
+    let formula = TransportFormula::WongParker;
+    let reason = "scatter of measured rates; yield stress and viscosity are fitted to the other two slopes";
+    let ratio = ratio.against(Some(1.0), formula.name(), formula.confidence());
+    ratio.gated(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1), reason)
 }
 
 /// A metric against the transport formula at the Shields number of a run.

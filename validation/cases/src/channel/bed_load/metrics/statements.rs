@@ -44,16 +44,8 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord) -> V
     metrics.extend(common(record, forgotten));
     // of the fitted slopes the transport says nothing
     if judged && run.particles.material == Rheology::CoulombBingham(FITTED) {
-        let formula = TransportFormula::WongParker;
-        metrics.push(
-            observed(TRANSPORT_RATIO, data.mean_transport(), 1.0 / run.formula_transport())
-                .against(Some(1.0), formula.name(), formula.confidence())
-                .of_kind(MetricKind::Validation)
-                .gated(
-                    Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1),
-                    "scatter of measured rates; yield stress and viscosity are fitted to the other two slopes",
-                ),
-        );
+        let ratio = observed(TRANSPORT_RATIO, data.mean_transport(), 1.0 / run.formula_transport());
+        metrics.push(over_formula(ratio).of_kind(MetricKind::Validation));
     }
     let profile = &data.channel.profile;
     metrics.extend(LAYERS.map(|(lower, upper)| {
