@@ -21,46 +21,6 @@ pub(super) struct Site<const D: usize> {
     pub(super) nearest: Option<NearestWall>,
 }
 
-/// A body on both sides of a wall.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct OnBothSides {
-    body: usize,
-    wall: usize,
-}
-
-/// The wall that each site is behind of, if any: a site is behind a wall that it is near to, or where it stands together with
-/// others that are, farther from the wall than that is thick. `may_have_two_sides` says of a wall whether material may stand
-/// behind it: it then is behind where it is near only. Sites are sorted by their cells, the last axis first.
-fn behind<const D: usize>(
-    sites: &[Site<D>],
-    may_have_two_sides: impl Fn(usize) -> bool,
-) -> Result<Vec<Option<usize>>, OnBothSides> {
-    let key = |cell: &[i64; D]| std::array::from_fn::<i64, D, _>(|axis| cell[D - 1 - axis]);
-    let find = |cell: &[i64; D]| sites.binary_search_by_key(&key(cell), |site| key(&site.cell)).ok();
-    let mut behind: Vec<Option<usize>> =
-        sites.iter().map(|site| site.nearest.filter(|wall| wall.distance < 0.0).map(|wall| wall.wall)).collect();
-    let mut reached: Vec<usize> =
-        (0..sites.len()).filter(|&index| behind[index].is_some_and(|wall| !may_have_two_sides(wall))).collect();
-    while let Some(index) = reached.pop() {
-        let site = &sites[index];
-        for (axis, step) in (0..D).flat_map(|axis| [(axis, -1), (axis, 1)]) {
-            let mut cell = site.cell;
-            cell[axis] += step;
-            let Some(next) = find(&cell).filter(|&next| behind[next].is_none()) else { continue };
-            match (sites[next].nearest, site.nearest, behind[index]) {
-                (None, _, wall) => {
-                    behind[next] = wall;
-                    reached.push(next);
-                }
-                // what is far behind a wall goes on to the front of one
-                (Some(_), None, Some(wall)) => return Err(OnBothSides { body: site.body, wall }),
-                _ => {}
-            }
-        }
-    }
-    Ok(behind)
-}
-
 /// Names and permissions by which material behind walls is judged.
 pub(super) struct Permissions<'a> {
     /// Name of each wall, and then of each inlet, and whether material may stand on both sides of it.
@@ -79,7 +39,7 @@ impl Permissions<'_> {
     /// # Errors
     /// A body of which more is behind walls than may be, or that stands on both sides of one, with the wall's name.
     pub(super) fn behind<const D: usize>(&self, sites: &[Site<D>]) -> Result<Vec<bool>, ParameterError> {
-        let behind = behind(sites, |wall| self.walls[wall].1).map_err(|found| self.both_sides(found))?;
+        let behind = self.nearest_behind(sites)?;
         let bodies = sites.iter().map(|site| site.body + 1).max().unwrap_or(0);
         let mut counts = vec![(0_usize, vec![0_usize; self.walls.len()]); bodies];
         for (site, wall) in sites.iter().zip(&behind) {
@@ -99,6 +59,36 @@ impl Permissions<'_> {
         Ok(behind.into_iter().map(|wall| wall.is_some()).collect())
     }
 
+    /// The wall that each site is behind of, if any: a site is behind a wall that it is near to, or where it stands together with
+    /// others that are, farther from the wall than that is thick. Of a wall that may have material on both sides it is behind where it
+    /// is near only. Sites are sorted by their cells, the last axis first.
+    fn nearest_behind<const D: usize>(&self, sites: &[Site<D>]) -> Result<Vec<Option<usize>>, ParameterError> {
+        let key = |cell: &[i64; D]| std::array::from_fn::<i64, D, _>(|axis| cell[D - 1 - axis]);
+        let find = |cell: &[i64; D]| sites.binary_search_by_key(&key(cell), |site| key(&site.cell)).ok();
+        let mut behind: Vec<Option<usize>> =
+            sites.iter().map(|site| site.nearest.filter(|wall| wall.distance < 0.0).map(|wall| wall.wall)).collect();
+        let mut reached: Vec<usize> =
+            (0..sites.len()).filter(|&index| behind[index].is_some_and(|wall| !self.walls[wall].1)).collect();
+        while let Some(index) = reached.pop() {
+            let site = &sites[index];
+            for (axis, step) in (0..D).flat_map(|axis| [(axis, -1), (axis, 1)]) {
+                let mut cell = site.cell;
+                cell[axis] += step;
+                let Some(next) = find(&cell).filter(|&next| behind[next].is_none()) else { continue };
+                match (sites[next].nearest, site.nearest, behind[index]) {
+                    (None, _, wall) => {
+                        behind[next] = wall;
+                        reached.push(next);
+                    }
+                    // what is far behind a wall goes on to the front of one
+                    (Some(_), None, Some(wall)) => return Err(self.both_sides(site.body, wall)),
+                    _ => {}
+                }
+            }
+        }
+        Ok(behind)
+    }
+
     fn too_much(&self, body: usize, wall: usize, share: f64) -> ParameterError {
         let name = self.walls[wall].0;
         let (removed, meant) = ((1000.0 * share).round() / 10.0, (100.0 * share).ceil() / 100.0);
@@ -112,7 +102,7 @@ impl Permissions<'_> {
         ParameterError::field(&format!("bodies[{body}]"), defect, "", &format!("{remedy}; {DRAW}"))
     }
 
-    fn both_sides(&self, OnBothSides { body, wall }: OnBothSides) -> ParameterError {
+    fn both_sides(&self, body: usize, wall: usize) -> ParameterError {
         let defect = format!("material on both sides of the wall `{}`", self.walls[wall].0);
         let remedy = format!("{}, set its `both_sides = true`, or shorten the body; {DRAW}", self.turn);
         ParameterError::field(&format!("bodies[{body}]"), defect, "", &remedy)

@@ -42,9 +42,14 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         if mach > 1.01 * LARGEST_MACH_NUMBER {
             caution(&too_fast(&self.name, speed, mach, (self.stiffness(), self.from.is_some())));
         }
+        // waves of such a law are not damped by the diffusion of the stress
         let friction = self.material.contact_friction();
         if self.material.strength_is_friction() && friction > STEEPEST {
-            caution(&too_steep(&self.name, friction));
+            caution(&format!(
+                "scene `{}`: a static friction of {friction} is above {STEEPEST}: such a law is ill-posed at small inertial numbers, and \
+                 layers flow at least 5 % too fast (friction 0.8, 40 rows); lower it, or compare runs of two spacings",
+                self.name
+            ));
         }
         for wall in self.walls.iter().filter(|_| D == 3) {
             let finer = wall.facet_wall().facets.len() as f64 * self.spacing.powi(2) / wall.measure();
@@ -56,11 +61,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
                 ));
             }
         }
-        let openings: Vec<String> = self
-            .walls
-            .iter()
-            .filter_map(|wall| Some(format!("; wall `{}` has {}", wall.name(), wall.openings()?)))
-            .collect();
+        let opening = |wall: &S::Wall| Some(format!("; wall `{}` has {}", wall.name(), wall.openings()?));
+        let openings = self.walls.iter().filter_map(opening);
         let beyond = self.inlets.iter().map(|own| own.rate().beyond(own.name(), self.duration, S::FLUX_UNIT));
         let grains = self.material.grain_diameter().map(|diameter| diameter / self.spacing);
         let grains = grains.map(|ratio| format!(", grain diameter {ratio:.2} particle spacings")).unwrap_or_default();
@@ -69,7 +71,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             self.name,
             four_digits(self.spacing),
             self.sound_cause(),
-            openings.into_iter().chain(beyond).chain(self.circulation()).collect::<String>()
+            openings.chain(beyond).chain(self.circulation()).collect::<String>()
         )
     }
 
@@ -85,8 +87,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
 
     /// The narrowest gap `[m]` between ends of different walls that is too narrow for a flow, and their names.
     fn narrowest_gap(&self) -> Option<(f64, &str, &str)> {
-        let ends: Vec<(Vec<Vector<D>>, &str)> =
-            self.walls.iter().map(|wall| (wall.hull().into_iter().collect(), wall.name())).collect();
+        let ends: Vec<_> = self.walls.iter().map(|wall| (wall.hull(), wall.name())).collect();
         // the triangles of a mesh are ends by the thousand
         if ends.iter().map(|(places, _)| places.len()).sum::<usize>() > MOST_ENDS {
             return None;
@@ -107,14 +108,6 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         }
         narrowest
     }
-}
-
-/// Warning of a law whose waves the diffusion of the stress does not damp.
-fn too_steep(name: &str, friction: f64) -> String {
-    format!(
-        "scene `{name}`: a static friction of {friction} is above {STEEPEST}: such a law is ill-posed at small inertial numbers, and layers \
-         flow at least 5 % too fast (friction 0.8, 40 rows); lower it, or compare runs of two spacings"
-    )
 }
 
 /// Warning of a flow too fast for its sound speed, with the stiffness that suffices.

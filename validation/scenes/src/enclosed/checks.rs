@@ -184,14 +184,11 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             let rule = "\"none\" where gravity acts along periodic sides only, because nothing compresses the material";
             return refused(rule, "leave it out");
         }
-        if self.lateral_pressure_ratio != 1.0 {
+        let ratio = self.lateral_pressure_ratio;
+        if ratio != 1.0 {
+            let rule = "1 beside `preparation` \"stressed\"";
             let remedy = "leave one of the two out, or set `preparation` to \"settled\"";
-            return Err(ParameterError::field(
-                "lateral_pressure_ratio",
-                self.lateral_pressure_ratio,
-                "1 beside `preparation` \"stressed\"",
-                remedy,
-            ));
+            return Err(ParameterError::field("lateral_pressure_ratio", ratio, rule, remedy));
         }
         if along.norm() > 0.0
             && let Some(wall) = self.smooth_floor()

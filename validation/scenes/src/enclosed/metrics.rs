@@ -96,26 +96,15 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
     let mut metrics = balances(&variant, data, parameters.sides.has_mirror());
     if parameters.numerics.viscous_step == ViscousStep::Implicit {
         let share = 100.0 * data.unsolved_impulse / data.gravity_impulse;
-        metrics.push(
-            UNSOLVED
-                .of(&variant, share)
-                .exactly(0.0, "an exact solution has no residual")
-                .gated(
-                    Limit::AtMost(MOST_UNSOLVED),
-                    "0.5 % of gravity's impulse: what viscous steps may leave unsolved; a smaller `viscous_tolerance` reduces it",
-                )
-                .with_snapshot_tolerance(1.0, 1e-3),
-        );
+        let reason = "0.5 % of gravity's impulse: what viscous steps may leave unsolved; a smaller `viscous_tolerance` reduces it";
+        let unsolved = UNSOLVED.of(&variant, share).exactly(0.0, "an exact solution has no residual");
+        metrics.push(unsolved.gated(Limit::AtMost(MOST_UNSOLVED), reason).with_snapshot_tolerance(1.0, 1e-3));
         metrics.push(VISCOUS_ITERATIONS.of(&variant, data.viscous_iterations).with_snapshot_tolerance(0.05, 0.0));
     }
     if data.water.largest > 0.0 {
         let share = 100.0 * data.water.missing / data.water.largest;
-        metrics.push(
-            WATER_RESIDUAL
-                .of(&variant, share)
-                .exactly(0.0, "the grains' volume is lost as water")
-                .with_snapshot_tolerance(0.5, 0.05),
-        );
+        let residual = WATER_RESIDUAL.of(&variant, share).exactly(0.0, "the grains' volume is lost as water");
+        metrics.push(residual.with_snapshot_tolerance(0.5, 0.05));
     }
     metrics.extend(feeds(&variant, data, parameters));
     metrics.extend(energy(&variant, data, parameters));
@@ -140,13 +129,11 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                 if (absent || last < 0.5 * farthest) && farthest > FRONT_ROWS * parameters.spacing {
                     let far = four_digits(farthest);
                     let near = if absent { "nothing".to_owned() } else { format!("{} m", four_digits(last)) };
-                    caution_about(
-                        &subject,
-                        &format!(
-                            "{subject} falls back from {far} m to {near}: the layer is thinner than `thickness` there; \
-                             reduce `thickness` and `spacing`, or start the line farther along"
-                        ),
+                    let text = format!(
+                        "{subject} falls back from {far} m to {near}: the layer is thinner than `thickness` there; \
+                         reduce `thickness` and `spacing`, or start the line farther along"
                     );
+                    caution_about(&subject, &text);
                 }
                 if first.len() > 1 && first.iter().all(|front| *front >= (line.to - line.from).norm()) {
                     let remedy =
@@ -172,14 +159,11 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
             // what it reads has no one quantity: studies take its columns
             Measurand::Probe(_) | Measurand::Position { .. } | Measurand::Turn { .. } => continue,
             Measurand::Flux(_) => {
-                let steady = discharge(&data.time, first).map(|(mean, error)| {
-                    discharge_of::<S, D>().of(&own, mean).with_snapshot_tolerance(0.1, 0.0).known_to(
-                        Origin::Repeat,
-                        Some(error),
-                        "standard error of the mean of four equal times",
-                    )
-                });
-                metrics.extend(steady);
+                if let Some((mean, error)) = discharge(&data.time, first) {
+                    let steady = discharge_of::<S, D>().of(&own, mean).with_snapshot_tolerance(0.1, 0.0);
+                    let source = "standard error of the mean of four equal times";
+                    metrics.push(steady.known_to(Origin::Repeat, Some(error), source));
+                }
                 mass_crossed::<S, D>().of(&own, last)
             }
         };
@@ -218,13 +202,10 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
         CUT_OFF.of(variant, 100.0 * data.cut_off).with_snapshot_tolerance(0.1, 1.0),
     ];
     if !has_mirror {
-        metrics.push(
-            FORCE_RESIDUAL
-                .of(variant, 100.0 * data.unassigned_impulse / data.impulse())
-                .exactly(0.0, "the reported wall forces are all forces of walls on particles")
-                .gated(Limit::AtMost(2e-5), closed)
-                .with_snapshot_tolerance(1.0, 1e-7),
-        );
+        let residual = FORCE_RESIDUAL
+            .of(variant, 100.0 * data.unassigned_impulse / data.impulse())
+            .exactly(0.0, "the reported wall forces are all forces of walls on particles");
+        metrics.push(residual.gated(Limit::AtMost(2e-5), closed).with_snapshot_tolerance(1.0, 1e-7));
     }
     metrics
 }
@@ -298,12 +279,10 @@ fn numerical_viscosity<S: Dimension<D>, const D: usize>(
     if share > MOST_NUMERICAL {
         let subject = format!("numerical viscosity of scene `{}`", parameters.name);
         let [times, lost] = [share, 100.0 * numerical / through].map(four_digits);
-        caution_about(
-            &subject,
-            &format!(
-                "{subject}: {times} times the liquid's own, and {lost} % of the energy converted; reduce `spacing`"
-            ),
+        let text = format!(
+            "{subject}: {times} times the liquid's own, and {lost} % of the energy converted; reduce `spacing`"
         );
+        caution_about(&subject, &text);
     }
     let metric = NUMERICAL_VISCOSITY.of(variant, own * share).with_snapshot_tolerance(0.1, 0.0);
     let source = "the material's own viscosity, at the largest root mean square of the speed over its height";

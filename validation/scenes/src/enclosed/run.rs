@@ -182,10 +182,8 @@ where
         let (made, cut_off) = self.scene()?;
         let begun = made.flow.position.len();
         if begun == 0 && self.inlets.is_empty() {
-            let defect = format!(
-                "no room for a particle in front of the walls (a body needs two spacings, {} m)",
-                2.0 * self.spacing
-            );
+            let least = 2.0 * self.spacing;
+            let defect = format!("no room for a particle in front of the walls (a body needs two spacings, {least} m)");
             let remedy = "widen a body, reduce the spacing, or reverse a wall";
             return Err(ParameterError::field("bodies", defect, "", remedy));
         }
@@ -221,10 +219,8 @@ where
                 let (snapshot, mut watch) = (simulation.snapshot(), begin(simulation));
                 let beds = watch.memory.find_beds(&measures, &down, simulation, &snapshot);
                 for (gauge, _) in self.gauges.iter().zip(beds).filter(|(_, is_above)| *is_above) {
-                    progress.tell(&format!(
-                        "front `{}` is that of the material above its line: below it is a bed",
-                        gauge.name()
-                    ));
+                    let name = gauge.name();
+                    progress.tell(&format!("front `{name}` is that of the material above its line: below it is a bed"));
                 }
                 (snapshot, watch)
             },
@@ -295,16 +291,11 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let Self { numerics, spacing, material, .. } = self;
         let squared = self.fall();
         let equation_of_state = self.equation_of_state_over(squared);
-        let (density, fall) = (equation_of_state.reference_density, squared.sqrt());
+        let (density, sound_speed) = (equation_of_state.reference_density, equation_of_state.sound_speed());
+        let fall = squared.sqrt();
         let viscosity = material.largest_viscosity(density * fall * fall) / density;
         let smoothing_length = numerics.smoothing_ratio * spacing;
-        TimeStepBounds::new(
-            numerics,
-            smoothing_length,
-            equation_of_state.sound_speed(),
-            self.expected_speed(),
-            viscosity,
-        )
+        TimeStepBounds::new(numerics, smoothing_length, sound_speed, self.expected_speed(), viscosity)
     }
 
     /// √(g H) with the height of the scene, and more under pressure `[m/s]`.

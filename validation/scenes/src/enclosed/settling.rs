@@ -101,7 +101,9 @@ where
             }
             peak = speed;
             if elapsed + simulation.time() > LONGEST * rest.crossing {
-                return Err(not_at_rest(peak, rest));
+                let after = LONGEST * rest.crossing;
+                let value = format!("after {after:.2} s the bodies still move {}", against_rest(peak, rest));
+                return Err(refused_for(&value, &raise(peak, rest)));
             }
         }
         elapsed += simulation.time();
@@ -207,11 +209,6 @@ fn check_held<const D: usize>(
 
 const SUPPORT_OF_LIQUID: &str = "close open sides, or remove `preparation`: inclined walls keep liquid circulating";
 const SUPPORT: &str = "support the bodies with walls, keep slopes below the static friction, or remove `preparation`";
-
-fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
-    let value = format!("after {:.2} s the bodies still move {}", LONGEST * rest.crossing, against_rest(speed, rest));
-    refused_for(&value, &raise(speed, rest))
-}
 
 /// A speed `[m/s]` beside that which counts as rest.
 fn against_rest(speed: f64, rest: RestCriterion) -> String {

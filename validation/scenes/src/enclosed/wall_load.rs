@@ -73,22 +73,14 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             return refused("direction", value, "across the wall", "point it into the material");
         }
         if self.bodies.is_empty() && (given.mass.is_none() || given.damping.is_none()) {
-            return refused(
-                "mass",
-                "this or `damping` is missing".to_owned(),
-                "",
-                "give both in a scene without bodies, where no material sets their defaults",
-            );
+            let remedy = "give both in a scene without bodies, where no material sets their defaults";
+            return refused("mass", "this or `damping` is missing".to_owned(), "", remedy);
         }
         let along = |way: &&Vector<D>| way.dot(&direction).abs() > ROUNDING * way.norm() * direction.norm();
         if let Some(way) = wall.motion().displacements.iter().find(along) {
             let defect = format!("{} is not perpendicular to the displacement {}", shown(&direction), shown(way));
-            return refused(
-                "direction",
-                defect,
-                "",
-                "leave displacements along the load out of `motion`, because the load moves the wall there",
-            );
+            let remedy = "leave displacements along the load out of `motion`, because the load moves the wall there";
+            return refused("direction", defect, "", remedy);
         }
         Ok(())
     }

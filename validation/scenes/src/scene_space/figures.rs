@@ -1,13 +1,12 @@
 //! Pictures of the material from the side and from above, between the edges of its walls.
 
-use super::SpaceFlow;
+use super::{SpaceFlow, SpaceWall};
 use crate::enclosed::figures::{add_inlets, picture_axes, start_panel};
 use crate::enclosed::setting::SceneWall;
 use crate::figure::{Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
-use bagnold_solver::weakly_compressible::enclosure::facet_wall::FacetWall;
 use std::collections::BTreeMap;
 
 /// Most edges that are drawn of the walls: a fine mesh would cover what it holds.
@@ -38,15 +37,12 @@ fn views(parameters: &SpaceFlow) -> [ViewDirection; 2] {
 pub(super) fn pictures(parameters: &SpaceFlow, frames: &[Frame]) -> Figure {
     let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
     let axes = picture_axes(parameters, frames.iter().flat_map(|frame| &frame.position));
-    let walls: Vec<(FacetWall<3>, Vec<[Vector<3>; 2]>)> = parameters
-        .walls
-        .iter()
-        .map(|wall| {
-            let facet_wall = wall.facet_wall();
-            let edges = sharp_edges(&facet_wall.facets);
-            (facet_wall, edges)
-        })
-        .collect();
+    let with_edges = |wall: &SpaceWall| {
+        let facet_wall = wall.facet_wall();
+        let edges = sharp_edges(&facet_wall.facets);
+        (facet_wall, edges)
+    };
+    let walls: Vec<_> = parameters.walls.iter().map(with_edges).collect();
     let views = views(parameters);
     let panels = frames.iter().flat_map(|frame| views.iter().map(move |view| (frame, view)));
     let panels = panels.map(|(frame, view)| {

@@ -105,44 +105,26 @@ impl StudyCheck {
 
     /// The metric of a value that was read.
     pub(super) fn metric(&self, variant: &Variant, value: f64, unit: &str) -> Metric {
+        let is_exact = self.confidence == Confidence::Exact || self.source.is_none();
         let metric = Metric::observed(&self.name, variant, value, unit)
-            .of_kind(match self.confidence {
-                Confidence::Exact => MetricKind::Verification,
-                _ if self.source.is_none() => MetricKind::Verification,
-                _ => MetricKind::Validation,
-            })
+            .of_kind(if is_exact { MetricKind::Verification } else { MetricKind::Validation })
             .gated_by(self.limit, &self.reason)
             .as_wide_as_scatter(self.scatter)
             .with_snapshot_tolerance(1e-6, self.drift())
             .of_user();
-        match &self.source {
-            Some(source) => metric.against(self.expected(), source, self.confidence).known_to(
-                Origin::Experiment,
-                self.standard_uncertainty,
-                source,
-            ),
-            None => metric,
-        }
+        let Some(source) = &self.source else { return metric };
+        // perfect agreement with a measured series is no distance from it
+        let expected = self.read.measured().map_or(self.reference, |_| Some(0.0));
+        let metric = metric.against(expected, source, self.confidence);
+        metric.known_to(Origin::Experiment, self.standard_uncertainty, source)
     }
 
     /// Drift of a value that is not told: of columns that cancel, whose rest is rounding, a tenth of the limit.
     fn drift(&self) -> f64 {
-        match (&self.read, self.limit) {
-            (CheckedQuantity::Value(column, _), Some(Limit::Within(lower, upper)))
-                if column.is_combined() && lower < 0.0 && upper > 0.0 =>
-            {
-                0.05 * (upper - lower)
-            }
-            _ => 0.0,
-        }
-    }
-
-    /// Value for perfect agreement.
-    fn expected(&self) -> Option<f64> {
-        match self.read {
-            CheckedQuantity::Distance(..) => Some(0.0),
-            _ => self.reference,
-        }
+        let (CheckedQuantity::Value(column, _), Some(Limit::Within(lower, upper))) = (&self.read, self.limit) else {
+            return 0.0;
+        };
+        if column.is_combined() && lower < 0.0 && upper > 0.0 { 0.05 * (upper - lower) } else { 0.0 }
     }
 }
 

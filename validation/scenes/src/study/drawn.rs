@@ -141,11 +141,9 @@ impl FigureText {
             };
             let only = series.only.clone().unwrap_or_default();
             let is_meant = |metric: &&Metric| metric.name == *check && metric.variant.includes(&only);
-            let mut found: Vec<(f64, &Metric)> = metrics
-                .iter()
-                .filter(is_meant)
-                .filter_map(|metric| self.place(&metric.variant).map(|place| (place, metric)))
-                .collect();
+            let own = metrics.iter().filter(is_meant);
+            let mut found: Vec<(f64, &Metric)> =
+                own.filter_map(|metric| Some((self.place(&metric.variant)?, metric))).collect();
             found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
             if let Some(label) = &series.reference {
                 let known = |(place, metric): &(f64, &Metric)| Some((*place, metric.reference.as_ref()?.value?));
@@ -167,11 +165,8 @@ impl FigureText {
                 panel.draw(label, Mark::Points, slot, values.filter(|point| is_drawn(point.1)));
             }
         }
-        Figure::new(
-            &self.name,
-            &format!("{} Filled points are simulated, lines and open points are references.", self.caption),
-            vec![panel],
-        )
+        let caption = self.caption.clone() + " Filled points are simulated, lines and open points are references.";
+        Figure::new(&self.name, &caption, vec![panel])
     }
 
     /// Abscissa of a variant.

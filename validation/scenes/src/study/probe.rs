@@ -66,12 +66,9 @@ impl ColumnWindow {
         let tables: Vec<&Table> = result.tables.iter().filter(is_meant).collect();
         if tables.is_empty() {
             let names: Vec<&str> = result.tables.iter().map(|table| table.name.as_str()).collect();
-            return Err(FieldError::new(
-                "table",
-                format!("\"{}\"", self.table),
-                &format!("a table of {}, or the beginning of its name: {}", result.name, listed(&names)),
-                &did_you_mean(&self.table, &names),
-            ));
+            let value = format!("\"{}\"", self.table);
+            let rule = format!("a table of {}, or the beginning of its name: {}", result.name, listed(&names));
+            return Err(FieldError::new("table", value, &rule, &did_you_mean(&self.table, &names)));
         }
         tables.into_iter().map(|table| self.curve(result, table)).collect()
     }

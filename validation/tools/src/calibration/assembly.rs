@@ -7,8 +7,8 @@ use super::repeated::Repeated;
 use super::result::{CalibrationResult, DatumComparison, ElementaryEffect, Evaluation, ParameterEstimate};
 use super::target::{Datum, Target};
 use crate::ToolError;
+use crate::inference::Answer;
 use crate::inference::posterior::Posterior;
-use crate::inference::{Answer, Evaluated, LocalMinimum};
 use crate::measured::{Measurements, read_overlay, with_overlay};
 use crate::sampling::Spacing;
 
@@ -90,27 +90,20 @@ pub(super) fn assemble(
     let correlation = region.map_or_else(Vec::new, |region| {
         region.correlation.row_iter().map(|row| row.iter().copied().collect()).collect()
     });
-    let evaluation = |evaluated: &Evaluated| Evaluation {
-        values: plan.values(&evaluated.point),
-        chi_squared: evaluated.chi_squared,
-    };
-    let minimum = |minimum: &LocalMinimum| Evaluation {
-        values: plan.values(&minimum.point),
-        chi_squared: Some(minimum.chi_squared),
-    };
+    let evaluation = |point: &[f64], chi_squared: Option<f64>| Evaluation { values: plan.values(point), chi_squared };
     CalibrationResult {
         title: plan.title.clone(),
         note: plan.note.clone(),
         method: plan.method.name().to_owned() + &seeds,
         stopped: search.stopped.to_string(),
         searched: answer.searched,
-        evaluations: search.history.iter().map(evaluation).collect(),
+        evaluations: search.history.iter().map(|own| evaluation(&own.point, own.chi_squared)).collect(),
         parameters: found(plan, answer, posterior),
         samples: posterior.map_or_else(Vec::new, |posterior| {
             let every = (posterior.samples.len() / MOST_SAMPLES).max(1);
             posterior.samples.iter().step_by(every).map(|sample| plan.values(sample)).collect()
         }),
-        minima: search.minima.iter().map(minimum).collect(),
+        minima: search.minima.iter().map(|own| evaluation(&own.point, Some(own.chi_squared))).collect(),
         chi_squared: Some(search.chi_squared),
         reduced_chi_squared: region.and_then(|region| region.reduced_chi_squared),
         p_value: region.and_then(|region| region.p_value),
@@ -153,10 +146,7 @@ fn found(plan: &CalibrationPlan, answer: &Answer, posterior: Option<&Posterior>)
             open: ends.map_or((false, false), |[below, above]| (below.open, above.open)),
             settled: ends.map_or((false, false), |[below, above]| (below.settled, above.settled)),
             rise: ends.map_or((None, None), |[below, above]| (below.rise, above.rise)),
-            credible: posterior.map(|posterior| {
-                let [low, high] = posterior.intervals[k].map(physical);
-                (low, high)
-            }),
+            credible: posterior.map(|posterior| posterior.intervals[k].map(physical).into()),
             profile: profile.map_or_else(Vec::new, |profile| {
                 profile.curve.iter().map(|point| (physical(point.point[k]), point.rise)).collect()
             }),

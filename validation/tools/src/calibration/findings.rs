@@ -135,10 +135,8 @@ fn of_region(plan: &CalibrationPlan, explored: &Explored) -> Vec<String> {
         }
     }
     if !explored.joint_settled && explored.ends.iter().flatten().all(|end| end.settled) {
-        findings.push(
-            "joint region not settled: the model and its emulator disagree at the edge; allow more `region_evaluations`"
-                .to_owned(),
-        );
+        let open = "the model and its emulator disagree at the edge; allow more `region_evaluations`";
+        findings.push(format!("joint region not settled: {open}"));
     }
     findings
 }

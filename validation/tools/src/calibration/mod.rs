@@ -79,7 +79,7 @@ pub fn calibrate(
         }
     }
     let answer = answer(&mut objective, start)?;
-    let truth_inside = truth_inside(plan, &mut objective, &answer)?;
+    let truth_inside = truth_inside(&mut objective, &answer)?;
     let effects = match plan.trajectories {
         0 => Vec::new(),
         count => sensitivity::screen(&mut objective, plan.parameters.len(), count, plan.budget.seed)?,
@@ -174,11 +174,8 @@ fn unsolved(error: SearchError<ToolError>, objective: &Objective<'_>) -> ToolErr
 
 /// Whether the joint 95 % region holds the truth of synthetic data, as the model itself says, which made them there; where its
 /// runs scatter, as the region is drawn.
-fn truth_inside(
-    plan: &CalibrationPlan,
-    objective: &mut Objective<'_>,
-    answer: &Answer,
-) -> Result<Option<bool>, ToolError> {
+fn truth_inside(objective: &mut Objective<'_>, answer: &Answer) -> Result<Option<bool>, ToolError> {
+    let plan = objective.plan;
     let truth: Option<Vec<f64>> =
         plan.parameters.iter().map(|p| p.truth.map(|truth| p.bounds.coordinate(truth))).collect();
     let Some((truth, explored)) = truth.zip(answer.explored.as_ref()) else { return Ok(None) };
@@ -199,8 +196,7 @@ fn compare_at(
 ) -> Result<Result<Vec<DatumComparison>, String>, ToolError> {
     let blocks: Vec<usize> =
         (0..objective.plan.blocks.len()).filter(|&k| objective.plan.blocks[k].held_out == held_out).collect();
-    let questions: Vec<_> = blocks.iter().map(|&block| objective.question(block, values)).collect();
-    let answers = objective.ask(&questions)?;
+    let answers = objective.ask_at(&blocks, &[values.to_vec()])?;
     if let Some(reason) = answers.iter().find_map(Repeated::failure) {
         return Ok(Err(reason.to_owned()));
     }

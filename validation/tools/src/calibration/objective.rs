@@ -62,9 +62,14 @@ impl<'a> Objective<'a> {
         begun.read_data()?;
         Ok(begun)
     }
-}
 
-impl Objective<'_> {
+    /// Answers of blocks at points of physical values, one point after the other.
+    pub(super) fn ask_at(&self, blocks: &[usize], points: &[Vec<f64>]) -> Result<Vec<Repeated>, ToolError> {
+        let questions: Vec<Question> =
+            points.iter().flat_map(|values| blocks.iter().map(|&block| self.question(block, values))).collect();
+        self.ask(&questions)
+    }
+
     /// Answers to questions, in their order, each with every seed where evaluations are repeated.
     pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Repeated>, ToolError> {
         let repeated: Vec<Vec<Question>> = questions.iter().map(|question| self.with_seeds(question)).collect();
@@ -229,8 +234,8 @@ impl Objective<'_> {
                 let remedy = "give the `truth` of every parameter, from which data with `noise` are generated";
                 FieldError::finding("parameters.truth", "missing", remedy).in_file(&self.plan.file)
             })?;
-            let questions: Vec<Question> = made.iter().map(|&block| self.question(block, &values)).collect();
-            truths.extend(made.into_iter().zip(self.ask(&questions)?));
+            let answers = self.ask_at(&made, &[values])?;
+            truths.extend(made.into_iter().zip(answers));
         }
         let mut noise = Random::new(self.plan.budget.seed);
         for (place, block) in blocks.iter().enumerate() {
@@ -253,9 +258,7 @@ impl Evaluate for Objective<'_> {
     fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, ToolError> {
         let fitted: Vec<usize> = (0..self.plan.blocks.len()).filter(|&k| !self.plan.blocks[k].held_out).collect();
         let values: Vec<Vec<f64>> = points.iter().map(|point| self.plan.values(point)).collect();
-        let questions: Vec<Question> =
-            values.iter().flat_map(|values| fitted.iter().map(|&block| self.question(block, values))).collect();
-        let answers = self.ask(&questions)?;
+        let answers = self.ask_at(&fitted, &values)?;
         let mean = |own: &Repeated, target: &Target| own.predicted(target).ok().map(|(value, _)| value);
         let root = |(place, residual): (usize, f64)| self.plan.loss.root(residual * self.weight(place));
         let of_point = |answers: &[Repeated]| {

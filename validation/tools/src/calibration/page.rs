@@ -141,20 +141,15 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
                 } else {
                     "neighbouring residuals are correlated"
                 };
-                format!(
-                    "{cause}, so the uncertainties were enlarged by {} for the intervals",
-                    four_digits(outcome.inflation)
-                )
+                let factor = four_digits(outcome.inflation);
+                format!("{cause}, so the uncertainties were enlarged by {factor} for the intervals")
             } else if p > 1.0 - UNLIKELY {
                 "the data agree with the model better than their uncertainties allow".to_owned()
             } else {
                 "the model explains the data within their uncertainties".to_owned()
             };
-            lines.push(format!(
-                "χ² over the degrees of freedom is {} (p = {}): {judged}.",
-                four_digits(reduced),
-                four_digits(p)
-            ));
+            let [reduced, p] = [reduced, p].map(four_digits);
+            lines.push(format!("χ² over the degrees of freedom is {reduced} (p = {p}): {judged}."));
         }
         let credible = |found: &ParameterEstimate| {
             let (low, high) = found.credible?;
@@ -207,12 +202,9 @@ fn render(
         .collect::<Vec<String>>()
     };
     let trial = |trial: &super::result::ChoiceResult| {
-        let ranks = trial.ranks.map_or_else(
-            || "–".to_owned(),
-            |(low, high)| {
-                if low == high { low.to_string() } else { format!("{low} … {high}") }
-            },
-        );
+        let range =
+            |(low, high): (usize, usize)| if low == high { low.to_string() } else { format!("{low} … {high}") };
+        let ranks = trial.ranks.map_or_else(|| "–".to_owned(), range);
         vec![
             trial.name.clone(),
             optional(trial.chi_squared),

@@ -146,14 +146,11 @@ pub fn usual_search(parameters: usize, starts: usize, region_evaluations: usize)
 impl CalibrationPlan {
     /// The settings of a block's case at a point of physical values.
     pub fn settings(&self, block: &DataBlock, values: &[f64]) -> Vec<String> {
-        let path = |paths: &Paths| paths.in_case(&block.request.case).map(str::to_owned);
-        self.parameters
-            .iter()
-            .zip(values)
-            .filter_map(|(parameter, &value)| {
-                path(&parameter.path).map(|path| format!("{path}={}", toml_number(value)))
-            })
-            .collect()
+        let setting = |(parameter, value): (&CalibratedParameter, &f64)| {
+            let path = parameter.path.in_case(&block.request.case)?;
+            Some(format!("{path}={}", toml_number(*value)))
+        };
+        self.parameters.iter().zip(values).filter_map(setting).collect()
     }
 
     /// Physical values of a point of the unit cube.
@@ -193,10 +190,8 @@ impl CalibrationPlan {
                 return Ok(());
             }
             let guess = nearest(case, cases.iter().copied());
-            let remedy = guess.map_or_else(
-                || "use a case of `fit` or `hold_out`".to_owned(),
-                |near| format!("did you mean `{near}`?"),
-            );
+            let nothing_near = || "use a case of `fit` or `hold_out`".to_owned();
+            let remedy = guess.map_or_else(nothing_near, |near| format!("did you mean `{near}`?"));
             Err(FieldError::new(&field, case, "a case with data in `fit` or `hold_out`", &remedy))
         };
         for (index, parameter) in self.parameters.iter().enumerate() {

@@ -4,7 +4,7 @@
 //! the best point and the ends of the intervals.
 
 use super::assembly::compared;
-use super::objective::{Objective, Question};
+use super::objective::Objective;
 use super::repeated::Repeated;
 use super::result::DatumComparison;
 use crate::ToolError;
@@ -48,14 +48,8 @@ pub(super) fn of_hold_out(
     let mut points: Vec<Vec<f64>> = vec![answer.search.best.clone()];
     points.extend(explored.ends.iter().flatten().map(|end| end.point.clone()));
     let blocks: Vec<usize> = (0..plan.blocks.len()).filter(|&block| plan.blocks[block].held_out).collect();
-    let questions: Vec<Question> = points
-        .iter()
-        .flat_map(|point| {
-            let values = plan.values(point);
-            blocks.iter().map(move |&block| objective.question(block, &values)).collect::<Vec<_>>()
-        })
-        .collect();
-    let answers = objective.ask(&questions)?;
+    let values: Vec<Vec<f64>> = points.iter().map(|point| plan.values(point)).collect();
+    let answers = objective.ask_at(&blocks, &values)?;
     let evaluated = |(point, answers): (&Vec<f64>, &[Repeated])| {
         let answer = |block: usize| blocks.iter().position(|&other| other == block).map(|place| &answers[place]);
         let data = compared(objective, true, answer, Clone::clone).ok();

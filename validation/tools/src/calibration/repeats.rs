@@ -5,7 +5,7 @@
 //! first search uses the mean over all data at the start, the second the mean over all points about the region, datum by
 //! datum. Between the two nothing is simulated twice.
 
-use super::objective::{Objective, Question};
+use super::objective::Objective;
 use super::repeated::Repeated;
 use super::target::Target;
 use crate::ToolError;
@@ -23,8 +23,7 @@ impl Objective<'_> {
         let fitted: Vec<usize> = (0..self.plan.blocks.len()).filter(|&k| !self.plan.blocks[k].held_out).collect();
         let (mut sums, mut used) = (vec![0.0; self.data_of(false).count()], 0.0);
         for values in points {
-            let questions: Vec<Question> = fitted.iter().map(|&block| self.question(block, values)).collect();
-            let answers = self.ask(&questions)?;
+            let answers = self.ask_at(&fitted, std::slice::from_ref(values))?;
             let with_seed = |seed: usize| {
                 let value = |own: &Repeated, target: &Target| Some(target.predicted(own.with_seed(seed)?).ok()?.0);
                 self.residuals_of(&fitted, &answers, value)

@@ -102,19 +102,14 @@ impl Target {
                             nearest(name, names).map_or_else(String::new, |near| format!(", did you mean `{near}`?"));
                         format!("no metric `{name}`{guess}")
                     } else {
-                        format!(
-                            "no variant `{}` of `{name}`; it has {}",
-                            variant.clone().unwrap_or_default(),
-                            variants.join("; ")
-                        )
+                        let wanted = variant.as_deref().unwrap_or_default();
+                        format!("no variant `{wanted}` of `{name}`; it has {}", variants.join("; "))
                     }
                 };
                 let first = found.next().ok_or_else(missing)?;
                 if variant.is_none() && found.next().is_some() {
-                    return Err(format!(
-                        "several variants of `{name}`; name one with `variant`, such as `{}`",
-                        first.variant
-                    ));
+                    let one = &first.variant;
+                    return Err(format!("several variants of `{name}`; name one with `variant`, such as `{one}`"));
                 }
                 match first.remark.as_ref().filter(|_| first.value.is_nan()) {
                     Some(reason) => Err(format!("no `{name}`: {reason}; let the runs last longer")),

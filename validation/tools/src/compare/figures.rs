@@ -16,11 +16,8 @@ pub(super) fn all(all: &[Results], case: &str) -> Vec<Figure> {
 }
 
 fn figure(all: &[Results], case: &str, name: &str, tables: &[Vec<Table>]) -> Option<Figure> {
-    let own: Vec<(usize, &Table)> = tables
-        .iter()
-        .enumerate()
-        .filter_map(|(folder, tables)| Some((folder, tables.iter().find(|table| table.name == name)?)))
-        .collect();
+    let named = tables.iter().map(|tables| tables.iter().find(|table| table.name == name)).enumerate();
+    let own: Vec<(usize, &Table)> = named.filter_map(|(folder, table)| Some((folder, table?))).collect();
     let (_, first) = *own.first().filter(|_| own.len() > 1)?;
     let (x, others) = first.columns.split_first()?;
     let panels = others.iter().map(|column| {

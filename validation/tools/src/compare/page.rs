@@ -2,12 +2,12 @@
 
 use super::difference::{Difference, differences};
 use super::figures;
-use super::parameters::{ChangedParameter, changed};
+use super::parameters::changed;
 use super::reading::Results;
 use crate::figure::Figure;
 use crate::judge::mark;
 use crate::number::{four_digits, two_digits};
-use crate::page::{self, PageFigure};
+use crate::page;
 use crate::report::{ReportError, put};
 use crate::result::{MetricEntry, pretty};
 use crate::store::provenance::short_commit;
@@ -29,7 +29,17 @@ pub fn write(all: &[Results], folder: &Path) -> Result<Vec<Difference>, ReportEr
     let parameters = changed(all);
     put(&folder.join("parameters.json"), pretty(&parameters))?;
     let moved = found.iter().filter(|one| is_moved(one)).count();
-    put(&folder.join("index.html"), render(all, &found, moved, parameters, pictures)?)?;
+    let document = json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "folders": all.iter().map(self::folder).collect::<Vec<_>>(),
+        "moved": moved,
+        "same": found.len() - moved,
+        "parameters": parameters,
+        "rows": found.iter().map(row).collect::<Vec<_>>(),
+        "pictures": pictures,
+    });
+    let html = page::fill(&[("compare.html", include_str!("template/compare.html"))], "compare.html", &document)?;
+    put(&folder.join("index.html"), html)?;
     Ok(found.into_iter().filter(is_moved).collect())
 }
 
@@ -50,25 +60,6 @@ fn line(one: &Difference) -> Value {
 
 fn is_moved(one: &Difference) -> bool {
     one.tolerances.is_some_and(|tolerances| tolerances > 1.0)
-}
-
-fn render(
-    all: &[Results],
-    found: &[Difference],
-    moved: usize,
-    parameters: Vec<ChangedParameter>,
-    pictures: Vec<PageFigure>,
-) -> Result<String, minijinja::Error> {
-    let page = json!({
-        "version": env!("CARGO_PKG_VERSION"),
-        "folders": all.iter().map(folder).collect::<Vec<_>>(),
-        "moved": moved,
-        "same": found.len() - moved,
-        "parameters": parameters,
-        "rows": found.iter().map(row).collect::<Vec<_>>(),
-        "pictures": pictures,
-    });
-    page::fill(&[("compare.html", include_str!("template/compare.html"))], "compare.html", &page)
 }
 
 fn folder(results: &Results) -> Value {

@@ -53,18 +53,9 @@ impl RunFields {
 
     /// Refuses contact stresses that are far from the momentum balance: a slope, load, density or unit of the plan is wrong.
     pub(super) fn check_balance(&self) -> Result<(), FieldError> {
-        let plans = [
-            (
-                "contacts",
-                "pressure",
-                "check the unit of the forces, the density, and `gravity` or `pressure`; dump all contacts",
-            ),
-            (
-                "slope_angle",
-                "shear stress",
-                "check `slope_angle` or `shear_stress`, and dump the tangential forces too",
-            ),
-        ];
+        let forces = "check the unit of the forces, the density, and `gravity` or `pressure`; dump all contacts";
+        let load = "check `slope_angle` or `shear_stress`, and dump the tangential forces too";
+        let plans = [("contacts", "pressure", forces), ("slope_angle", "shear stress", load)];
         for ((field, name, remedy), ratio) in plans.into_iter().zip(self.balance()) {
             if ratio.is_finite() && !BALANCED.contains(&ratio) {
                 let ratio = short_digits(ratio, 3);

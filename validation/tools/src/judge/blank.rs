@@ -85,16 +85,10 @@ fn files(form: &ExternalSchema, description: &str) -> String {
 }
 
 fn columns(items: &[ExternalColumn]) -> String {
-    items.iter().fold(String::new(), |mut text, item| {
-        let _ = writeln!(
-            text,
-            "# {name} = \"{name} [{unit}]\"  # {description}",
-            name = item.name,
-            unit = item.unit,
-            description = item.description
-        );
-        text
-    })
+    let line = |ExternalColumn { name, unit, description }: &ExternalColumn| {
+        format!("# {name} = \"{name} [{unit}]\"  # {description}\n")
+    };
+    items.iter().map(line).collect()
 }
 
 /// Text in lines of at most 118 letters.

@@ -157,16 +157,13 @@ impl CaseSubmissions {
         let chosen: BTreeSet<usize> = places.iter().flatten().copied().collect();
         let chosen: Vec<usize> = chosen.into_iter().collect();
         let prepared = all.choose(&chosen);
-        let entries = submissions
-            .into_iter()
-            .zip(places)
-            .map(|(submission, places)| {
-                let own: Vec<usize> =
-                    places.iter().filter_map(|place| chosen.iter().position(|chosen| chosen == place)).collect();
-                let moved = gates::notice(&submission, &gates);
-                Ok(CodeResults { moved, ..entry(submission, &own, case.form(), prepared.as_ref())? })
-            })
-            .collect::<Result<_, ToolError>>()?;
+        let of_code = |(submission, places): (Submission, Vec<usize>)| -> Result<CodeResults, ToolError> {
+            let own: Vec<usize> =
+                places.iter().filter_map(|place| chosen.iter().position(|chosen| chosen == place)).collect();
+            let moved = gates::notice(&submission, &gates);
+            Ok(CodeResults { moved, ..entry(submission, &own, case.form(), prepared.as_ref())? })
+        };
+        let entries = submissions.into_iter().zip(places).map(of_code).collect::<Result<_, _>>()?;
         Ok(Self { prepared, entries })
     }
 }
@@ -263,26 +260,20 @@ fn quoted<'v>(variants: impl Iterator<Item = &'v Variant>, between: &str) -> Str
 /// # Errors
 /// A single number that no metric of its run has.
 pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison, ToolError> {
-    let codes: Vec<JudgedCode> = entries
-        .iter()
-        .map(|entry| {
-            let numbers: Vec<_> = entry
-                .variants
-                .iter()
-                .zip(&entry.submission.runs)
-                .enumerate()
-                .map(|(number, (variant, run))| (variant.clone(), run, format!("run {}", number + 1)))
-                .collect();
-            let CodeResults { submission, moved, orders, .. } = entry.clone();
-            // a gate of a run that only another code has lacks no data of this one
-            let is_of = |of: &CodeResults, metric: &Metric| of.variants.iter().any(|run| metric.variant.includes(run));
-            let is_others = |metric: &&Metric| !is_of(entry, metric) && entries.iter().any(|of| is_of(of, metric));
-            let asked: Vec<Metric> = own.metrics.iter().filter(|metric| !is_others(metric)).cloned().collect();
-            let metrics = verdicts::compare(&asked, &entry.result, &numbers, submission.law)
-                .map_err(|error| error.in_file(&submission.path))?;
-            Ok(JudgedCode { submission, moved, metrics, orders })
-        })
-        .collect::<Result<_, ToolError>>()?;
+    let judged = |entry: &CodeResults| -> Result<JudgedCode, ToolError> {
+        let runs = entry.variants.iter().zip(&entry.submission.runs).enumerate();
+        let numbers = runs.map(|(number, (variant, run))| (variant.clone(), run, format!("run {}", number + 1)));
+        let numbers: Vec<_> = numbers.collect();
+        let CodeResults { submission, moved, orders, .. } = entry.clone();
+        // a gate of a run that only another code has lacks no data of this one
+        let is_of = |of: &CodeResults, metric: &Metric| of.variants.iter().any(|run| metric.variant.includes(run));
+        let is_others = |metric: &&Metric| !is_of(entry, metric) && entries.iter().any(|of| is_of(of, metric));
+        let asked: Vec<Metric> = own.metrics.iter().filter(|metric| !is_others(metric)).cloned().collect();
+        let metrics = verdicts::compare(&asked, &entry.result, &numbers, submission.law)
+            .map_err(|error| error.in_file(&submission.path))?;
+        Ok(JudgedCode { submission, moved, metrics, orders })
+    };
+    let codes: Vec<JudgedCode> = entries.iter().map(judged).collect::<Result<_, _>>()?;
     let theirs: Vec<(&str, &[Figure])> =
         entries.iter().map(|entry| (entry.submission.code.name.as_str(), entry.result.figures.as_slice())).collect();
     let figures = overlay::overlay(&own.figures, &theirs);

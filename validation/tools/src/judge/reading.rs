@@ -60,11 +60,8 @@ pub(super) fn read(
     if let Some(table) = &run.profile {
         given.profile = columns(table, form.profile, &format!("{field}.profile"))?;
         if let Some(first) = form.profile.first() {
-            in_order(
-                given.profile(first.name),
-                &format!("{field}.profile.columns.{}", first.name),
-                &folder.join(&table.file),
-            )?;
+            let field = format!("{field}.profile.columns.{}", first.name);
+            in_order(given.profile(first.name), &field, &folder.join(&table.file))?;
         }
     }
     Ok(given)
@@ -245,11 +242,8 @@ fn of_points(points: &PointArrays, plan: &ColumnAssignments, file: &Path) -> Res
         ColumnSource::Heading { text, name, .. } => array(arrays, text, name).cloned().ok_or_else(|| {
             let guess = did_you_mean(&nearest(name, arrays.keys().map(String::as_str)));
             let names = |arrays: &NamedArrays| arrays.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
-            let at_cells = if points.cells.is_empty() {
-                String::new()
-            } else {
-                format!("; at its cells {}", names(&points.cells))
-            };
+            let of_cells = || format!("; at its cells {}", names(&points.cells));
+            let at_cells = if points.cells.is_empty() { String::new() } else { of_cells() };
             let rule = format!("an array of {}: {}{at_cells}", file.display(), names(arrays));
             let remedy = format!("{guess}name coordinates Points:0, Points:1, Points:2, parts of a vector NAME:0, …");
             FieldError::new(field, format!("\"{text}\""), &rule, &remedy)

@@ -135,14 +135,10 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&SweepRun, EvaluationRecor
             surfaces.push(MetricMap { metric: format!("{name} {variant}"), points });
         }
         for (parameter, values) in &varied {
-            let mut unit = String::new();
-            let mut points = Vec::new();
-            for ((_, record), &x) in own.iter().zip(values) {
-                if let Some((value, own_unit)) = value_of(record) {
-                    unit = own_unit;
-                    points.push((x, value));
-                }
-            }
+            let found = own.iter().zip(values).filter_map(|((_, record), &x)| Some((x, value_of(record)?)));
+            let found: Vec<(f64, (f64, String))> = found.collect();
+            let unit = found.last().map_or("", |(_, (_, unit))| unit.as_str());
+            let points = found.iter().map(|(x, (value, _))| (*x, *value)).collect();
             let label = &manifest.parameters[*parameter];
             let mut panel = Panel::new("", Axis::linear(label), Axis::linear(&format!("{name} [{unit}]")));
             panel.series.push(Series::new("", Mark::Points, 0, points));

@@ -3,7 +3,7 @@
 use super::manifest::{Manifest, SweepRun};
 use crate::ToolError;
 use crate::case::list::ListedChange;
-use crate::case::{Limits, ListOfRuns, PreparedCase, Registry, VariedParameter};
+use crate::case::{Limits, ListOfRuns, Registry, VariedParameter};
 use crate::evaluation::{self, CaseRequest, Paths, read_plan};
 use crate::input::{FieldError, check_name};
 use crate::measured::read_overlay;
@@ -245,7 +245,8 @@ impl SweepPlan {
                 match request.prepare(registry, &self.file, &settings, limits) {
                     Ok(prepared) => {
                         entry.key = evaluation::key(prepared.as_ref(), &measured);
-                        entry.particle_steps = cost(prepared.as_ref());
+                        // JSON has no infinity
+                        entry.particle_steps = prepared.estimate_of_all().particle_steps.min(f64::MAX);
                         entry.parameters_toml = prepared.parameters_toml().to_owned();
                     }
                     // a path or a type that is wrong is wrong at every point
@@ -277,12 +278,6 @@ impl SweepPlan {
 /// A label as a file name.
 fn file_name(label: &str) -> String {
     label.chars().map(|letter| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '-' }).collect()
-}
-
-fn cost(prepared: &dyn PreparedCase) -> f64 {
-    let sum = prepared.estimate_of_all().particle_steps;
-    // JSON has no infinity
-    sum.min(f64::MAX)
 }
 
 impl SweptParameter {

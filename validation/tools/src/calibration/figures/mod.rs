@@ -17,11 +17,8 @@ pub(super) fn all(outcome: &CalibrationResult) -> Vec<Figure> {
     figures.extend(corner::figure(outcome));
     if outcome.trials.is_empty() {
         figures.extend(agreement("fit", "Data that were fitted, and the model.", &outcome.fit));
-        figures.extend(agreement(
-            "hold-out",
-            "Data that were held out, and the model's prediction.",
-            &outcome.hold_out,
-        ));
+        let caption = "Data that were held out, and the model's prediction.";
+        figures.extend(agreement("hold-out", caption, &outcome.hold_out));
     } else {
         figures.extend(trials(outcome));
     }
@@ -92,15 +89,9 @@ fn profiles(outcome: &CalibrationResult) -> Option<Figure> {
         panels.push(panel);
     }
     let columns = panels.len().min(3);
-    (columns > 0).then(|| {
-        Figure::new(
-            "profiles",
-            "Profile likelihood: χ² with all other parameters at their best, on an emulator of the \
-             evaluations. Values below the dashed line agree with the data at 95 %.",
-            panels,
-        )
-        .in_columns(columns)
-    })
+    let caption = "Profile likelihood: χ² with all other parameters at their best, on an emulator of the \
+                   evaluations. Values below the dashed line agree with the data at 95 %.";
+    (columns > 0).then(|| Figure::new("profiles", caption, panels).in_columns(columns))
 }
 
 /// One panel a group of data: profiles over their abscissa, single numbers model over datum.
@@ -201,22 +192,16 @@ fn sensitivity(outcome: &CalibrationResult) -> Option<Figure> {
     if outcome.sensitivity.is_empty() {
         return None;
     }
-    let mut panel = Panel::new(
-        "",
-        Axis::linear("mean effect μ* [σ per range]"),
-        Axis::linear("scatter σ of the effects [σ per range]"),
-    );
+    let (mean, scatter) = ("mean effect μ* [σ per range]", "scatter σ of the effects [σ per range]");
+    let mut panel = Panel::new("", Axis::linear(mean), Axis::linear(scatter));
     for (slot, effect) in outcome.sensitivity.iter().enumerate() {
         if effect.effect.is_finite() && effect.spread.is_finite() {
             panel.points(&effect.name, slot, [(effect.effect, effect.spread)]);
         }
     }
-    Some(Figure::new(
-        "sensitivity",
-        "Morris screening over the whole ranges: the data are sensitive to parameters on the right; those at \
-         the top act nonlinearly or interact with others.",
-        vec![panel],
-    ))
+    let caption = "Morris screening over the whole ranges: the data are sensitive to parameters on the right; those at \
+                   the top act nonlinearly or interact with others.";
+    Some(Figure::new("sensitivity", caption, vec![panel]))
 }
 
 #[cfg(test)]
