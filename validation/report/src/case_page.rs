@@ -38,10 +38,7 @@ pub(super) fn render(
 
 /// Names, within the case's folder, and texts of the tables of reference data that belong to a case.
 pub(super) fn tables(case: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
-    shipped_tables().filter_map(move |(name, text)| {
-        let own = name.strip_prefix(case)?.strip_prefix('/')?;
-        Some((own, text))
-    })
+    shipped_tables().filter_map(move |(name, text)| Some((name.strip_prefix(case)?.strip_prefix('/')?, text)))
 }
 
 /// The figures of a case among those of all.

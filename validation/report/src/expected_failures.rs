@@ -144,11 +144,8 @@ impl ExpectedFailures {
             (Verdict::Fail, Some(gate)) => {
                 // The margin knows which direction is worse; what is not a number is worse than anything.
                 let lost = gate.limit.margin(entry.best_value) - gate.limit.margin(metric.value);
-                if metric.value.is_finite() && lost <= snapshot_tolerance(metric, entry.best_value) {
-                    ListStatus::AsListed(entry)
-                } else {
-                    ListStatus::Worse(entry)
-                }
+                let is_kept = metric.value.is_finite() && lost <= snapshot_tolerance(metric, entry.best_value);
+                if is_kept { ListStatus::AsListed(entry) } else { ListStatus::Worse(entry) }
             }
             _ => ListStatus::WithoutGate(entry),
         }

@@ -40,10 +40,8 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<serde_json::Value> {
                 "distance": distance(judged.metric),
             });
             // canonical studies are judged as a user's own are, and fail no louder than cases
-            let owner = match severity {
-                Severity::ExpectedFailure => GateOwner::Case,
-                _ => judged.metric.gate_owner(),
-            };
+            let is_expected = severity == Severity::ExpectedFailure;
+            let owner = if is_expected { GateOwner::Case } else { judged.metric.gate_owner() };
             items.push(((severity, owner), distance(judged.metric), item));
         }
     }

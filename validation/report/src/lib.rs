@@ -83,7 +83,7 @@ use std::time::Duration;
 use store::{Drawings, provenance};
 
 /// Everything that a report shows.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Report {
     /// Heading of the page.
     pub title: String,
@@ -110,18 +110,7 @@ pub struct Report {
 impl Report {
     /// A report of some cases without anything to compare with.
     pub fn of(title: String, tier: Tier, cases: Vec<CaseReport>) -> Self {
-        Self {
-            title,
-            tier,
-            generated: ReportProvenance::default(),
-            cases,
-            baseline: Baseline::default(),
-            against: None,
-            expected_failures: ExpectedFailures::default(),
-            listed_in_vain: Vec::new(),
-            papers: &[],
-            features: None,
-        }
+        Self { title, tier, cases, ..Self::default() }
     }
 }
 

@@ -64,18 +64,13 @@ pub(super) fn moved(judgement: &Judgement<'_>) -> Vec<MovedValue> {
     }
     all.retain(|moved| moved.is_beyond || moved.tolerances >= LEAST);
     // Stable: equal ones keep the order of the page.
+    let is_new_failure = |moved: &MovedValue| matches!(&moved.now, Some((Some(severity), _)) if severity.is_error());
     let order = |a: &MovedValue, b: &MovedValue| {
-        let states = (b.is_beyond, b.is_new_failure()).cmp(&(a.is_beyond, a.is_new_failure()));
+        let states = (b.is_beyond, is_new_failure(b)).cmp(&(a.is_beyond, is_new_failure(a)));
         states.then(b.tolerances.total_cmp(&a.tolerances))
     };
     all.sort_by(order);
     all
-}
-
-impl MovedValue {
-    fn is_new_failure(&self) -> bool {
-        matches!(&self.now, Some((Some(severity), _)) if severity.is_error())
-    }
 }
 
 fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Option<MovedValue> {
@@ -105,10 +100,8 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Opti
 
 /// Table of the values that moved from the baseline.
 pub(super) fn table(judgement: &Judgement<'_>) -> Value {
-    let against = match &judgement.report.against {
-        Some(folder) => format!("the report in {folder}"),
-        None => "the baseline".to_owned(),
-    };
+    let against = judgement.report.against.as_ref();
+    let against = against.map_or_else(|| "the baseline".to_owned(), |folder| format!("the report in {folder}"));
     let all = moved(judgement);
     let beyond = all.iter().filter(|moved| moved.is_beyond).count();
     let shown = all.len().min(ROWS.max(beyond));

@@ -4,10 +4,8 @@ use super::ReportProvenance;
 use crate::store::provenance::short_commit;
 
 pub(super) fn provenance(provenance: &ReportProvenance) -> Vec<(&'static str, String)> {
-    let commit = match provenance.commit.as_str() {
-        "" => "unknown".to_owned(),
-        commit => short_commit(commit),
-    };
+    let commit = &provenance.commit;
+    let commit = if commit.is_empty() { "unknown".to_owned() } else { short_commit(commit) };
     vec![
         ("version", provenance.version.clone()),
         ("commit", commit),

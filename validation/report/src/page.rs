@@ -2,7 +2,7 @@
 
 use super::failures;
 use super::flows;
-use super::judgement::{JudgedMetric, Judgement, KINDS, Severity, plural};
+use super::judgement::{Judgement, KINDS, Severity, plural};
 use super::origin::provenance;
 use super::overview;
 use super::papers::Status;
@@ -65,8 +65,7 @@ pub(super) fn gates(judgement: &Judgement<'_>) -> Result<String, minijinja::Erro
 fn banner(judgement: &Judgement<'_>) -> Value {
     let tally = judgement.tally();
     let (new, moved) = (tally.of(Severity::NewFailure), judgement.moved());
-    let is_at_odds = |judged: &JudgedMetric<'_>| judged.listed.is_error();
-    let at_odds = judgement.metrics().filter(|(_, judged)| is_at_odds(judged)).count();
+    let at_odds = judgement.metrics().filter(|(_, judged)| judged.listed.is_error()).count();
     let mark = match (judgement.exit() == Exit::Held, moved, tally.all()) {
         (false, ..) => VerdictMark::FAIL,
         (_, 1.., _) => VerdictMark::MOVED,

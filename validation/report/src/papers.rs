@@ -90,13 +90,6 @@ pub struct Ended<'r> {
     pub status: Option<Status>,
 }
 
-impl<'r> Ended<'r> {
-    fn of(name: &'r RunName, run: &'r RunSummary) -> Self {
-        let diverged = matches!(run.outcome, Outcome::Diverged { .. });
-        Self { name, run, status: diverged.then_some(Status::NotReproduced) }
-    }
-}
-
 /// Verdict of an element under a control.
 struct Tried<'r> {
     /// The control, by case and name.
@@ -134,7 +127,10 @@ impl<'r> ElementOutcome<'r> {
         let shown: Vec<Shown<'r>> = element.metrics.iter().flat_map(of_name).collect();
         let of_run = |name: &'r RunName| {
             let runs = cases.iter().filter(|case| case.name == name.case).flat_map(|case| &case.runs);
-            runs.filter(|run| name.names(&run.variant)).map(|run| Ended::of(name, run))
+            runs.filter(|run| name.names(&run.variant)).map(|run| {
+                let diverged = matches!(run.outcome, Outcome::Diverged { .. });
+                Ended { name, run, status: diverged.then_some(Status::NotReproduced) }
+            })
         };
         let ended: Vec<Ended<'r>> = element.runs.iter().flat_map(of_run).collect();
         let status = match &element.not_covered {

@@ -48,10 +48,7 @@ pub(super) fn compare(command: &CompareArguments, session: &mut Session<'_>) -> 
     if !apart.is_empty() {
         session.say(&format!("not in every folder, so not compared: {}\n", of_cases(&apart)));
     }
-    let shown = match moved.len() {
-        0..=MOST_SHOWN => "",
-        _ => ", the largest differences first; index.html has all",
-    };
+    let shown = if moved.len() > MOST_SHOWN { ", the largest differences first; index.html has all" } else { "" };
     session.say(&format!("{} numbers differ by more than their tolerance{shown}\n", moved.len()));
     moved.iter().take(MOST_SHOWN).for_each(|one| session.say(&in_words(one)));
     let limits =

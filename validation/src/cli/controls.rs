@@ -32,7 +32,7 @@ pub(super) fn of_results(
             }
         }
     }
-    let wrong = if prepared.is_empty() { Vec::new() } else { simulate(prepared, store, quiet, None)? };
+    let wrong = if prepared.is_empty() { Vec::new() } else { simulate(prepared, store, quiet, None, None)? };
     for ((case, control), wrong) in places.into_iter().zip(&wrong) {
         trials[case].push(wrong.trial(control, &results[case]));
     }

@@ -24,7 +24,7 @@ pub(super) fn judge(command: &JudgeArguments, session: &mut Session<'_>) -> Resu
     let CaseSubmissions { prepared, entries } = CaseSubmissions::read(&command.files, session.registry)?;
     let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/judged/{}", prepared.name())));
     let claimed = OutputFolder::claim(&folder)?;
-    let results = simulation::simulate(vec![prepared], &command.work.open_store(), session.quiet, None)?;
+    let results = simulation::simulate(vec![prepared], &command.work.open_store(), session.quiet, None, None)?;
     let exit = Exit::of_runs(&results);
     let Some(own) = results.into_iter().next() else { return Ok(exit) };
     let judgement = judge::judge(own, &entries)?;
@@ -56,7 +56,7 @@ pub(super) fn league(command: &LeagueArguments, session: &mut Session<'_>) -> Re
     let blind = league::blind::read(&folder)?;
     let claimed = OutputFolder::claim(&command.out)?;
     let (prepared, entries) = league::split(league::read(&files, session.registry)?);
-    let results = simulation::simulate(prepared, &command.work.open_store(), session.quiet, None)?;
+    let results = simulation::simulate(prepared, &command.work.open_store(), session.quiet, None, None)?;
     let judged = results.into_iter().zip(&entries).map(|(own, entries)| judge::judge(own, entries));
     let judged: Vec<CodeComparison> = judged.collect::<Result<_, _>>()?;
     league::write(&league::league(&judged), &blind, claimed.staging())?;
@@ -105,7 +105,7 @@ pub(super) fn export(command: &ExportArguments, session: &mut Session<'_>) -> Re
     let prepare = || case.prepare(command.tier, &Changes::default());
     let (prepared, claimed) = (prepare()?, OutputFolder::claim(&command.out)?);
     let results = if command.simulate {
-        simulation::simulate(vec![prepare()?], &command.work.open_store(), session.quiet, None)?
+        simulation::simulate(vec![prepare()?], &command.work.open_store(), session.quiet, None, None)?
     } else {
         Vec::new()
     };

@@ -225,8 +225,8 @@ fn perform(command: &Command, session: &mut Session<'_>) -> Result<Exit, Program
         Command::Schema(command) => setup::schema(command, session),
         Command::Run(command) => {
             in_pool(command.work.threads, || match study::file(&command.target, session.registry) {
-                Some(file) => study::run(&file, command, session.registry, session.quiet, session.output),
-                None => run::run(command, session.registry, session.quiet, session.output),
+                Some(file) => study::run(&file, command, session),
+                None => run::run(command, session),
             })
         }
         Command::Calibrate(command) => in_pool(command.work.threads, || calibrate::run(command, session)),
@@ -241,9 +241,7 @@ fn perform(command: &Command, session: &mut Session<'_>) -> Result<Exit, Program
         Command::Export(command) => in_pool(command.work.threads, || judge::export(command, session)),
         Command::Store(command) => store::store(command, session),
         Command::Sweep(command) => in_pool(command.work.threads, || sweep::sweep(command, session)),
-        Command::Report(command) => {
-            in_pool(command.work.threads, || report::report(command, session.registry, session.quiet, session.output))
-        }
+        Command::Report(command) => in_pool(command.work.threads, || report::report(command, session)),
     }
 }
 

@@ -4,18 +4,16 @@ use super::arguments::RunArguments;
 use super::error::ProgramError;
 use super::expectation::Expectation;
 use super::profile::StageTimer;
-use super::{Exit, print, say, tell};
-use crate::case::{CaseResult, Registry};
+use super::{Exit, Session, print, tell};
+use crate::case::CaseResult;
 use crate::measured::Measurements;
 use crate::output::OutputFolder;
 use crate::report::{CaseReport, SingleRun};
 use crate::store::Store;
-use std::io::Write;
 
 /// Context for publishing a finished run.
 pub(super) struct Publication<'a> {
     pub(super) command: &'a RunArguments,
-    pub(super) registry: Registry,
     pub(super) claimed: OutputFolder,
     pub(super) store: &'a Store,
     /// Runs whose time is kept; none where these times do not predict those of other runs.
@@ -31,11 +29,11 @@ impl Publication<'_> {
         self,
         run: SingleRun,
         result: CaseResult,
-        output: &mut (dyn Write + Send),
+        session: &mut Session<'_>,
     ) -> Result<Exit, ProgramError> {
         let Self { command, store, mut profile, .. } = self;
         let threads = rayon::current_num_threads();
-        let case = CaseReport { measured: self.measured, ..CaseReport::of(result, self.registry) };
+        let case = CaseReport { measured: self.measured, ..CaseReport::of(result, session.registry) };
         let outcome = run.finish(case, self.claimed, &store.drawings().in_format(command.figures.format()))?;
         let results = [outcome.case.result];
         if let Some(expectation) = self.expectation {
@@ -43,9 +41,9 @@ impl Publication<'_> {
         }
         profile.over("page");
         if command.json {
-            print(output, &outcome.json);
+            print(session.output, &outcome.json);
         } else {
-            say(output, &outcome.text);
+            session.say(&outcome.text);
         }
         if command.profile {
             tell(profile.in_words(&results, threads).trim_end_matches('\n'));
@@ -53,7 +51,7 @@ impl Publication<'_> {
         match outcome.remarks.trim_end() {
             "" if command.json => {}
             remarks if command.json => tell(remarks),
-            _ => say(output, &(outcome.remarks + &outcome.verdict)),
+            _ => session.say(&(outcome.remarks + &outcome.verdict)),
         }
         Ok(outcome.exit)
     }

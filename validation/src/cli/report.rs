@@ -4,21 +4,16 @@ use super::arguments::{Denied, ReportArguments};
 use super::error::ProgramError;
 use super::profile::StageTimer;
 use super::simulation::{announce, simulate};
-use super::{Exit, controls, say, tell, terminal};
+use super::{Exit, Session, controls, tell, terminal};
 use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier, untaken};
 use crate::output::caution_of_shipped;
 use crate::report::{CaseReport, ChangedCases, CommittedValues, ReportRequest};
 use crate::study::Suite;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Simulates the cases and says what the report says.
-pub(super) fn report(
-    command: &ReportArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+pub(super) fn report(command: &ReportArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let Session { registry, quiet, .. } = *session;
     caution_of_shipped(command.suite.is_none());
     let suite = command.suite.as_ref().map(|folder| Suite::read(folder, registry)).transpose()?;
     let (cases, changed) = match &suite {
@@ -28,25 +23,22 @@ pub(super) fn report(
     let process = match (ReportRequest { changed, ..request(command, registry, suite.as_ref(), &cases)? }).begin()? {
         Ok(process) => process,
         Err(earlier) => {
-            if !quiet {
-                tell("nothing has changed since this report was written; `--fresh` computes it again");
-            }
-            say(output, &earlier.text);
+            session.note("nothing has changed since this report was written; `--fresh` computes it again");
+            session.say(&earlier.text);
             return Ok(earlier.exit);
         }
     };
     let store = command.work.open_store();
     let expectation = announce("report", &cases, &store, quiet);
     let mut profile = StageTimer::begin();
-    let mut results = simulate(cases, &store, quiet, Some(&expectation))?;
+    let mut results = simulate(cases, &store, quiet, None, Some(&expectation))?;
     if let Some(suite) = &suite {
         results = suite.judge(results)?;
     }
     profile.over("runs and their figures");
     let limits = command.allowance.limits();
-    let mut trials =
+    let trials =
         if suite.is_none() { controls::of_results(&results, registry, limits, &store, quiet)? } else { Vec::new() };
-    trials.resize_with(results.len(), Vec::new);
     let mut cases: Vec<CaseReport> = results.into_iter().map(|result| CaseReport::of(result, registry)).collect();
     for (case, trials) in cases.iter_mut().zip(trials) {
         case.controls = trials;
@@ -62,7 +54,7 @@ pub(super) fn report(
     if suite.is_none() {
         expectation.learn(&results, store.root(), rayon::current_num_threads());
     }
-    say(output, &outcome.text);
+    session.say(&outcome.text);
     if command.profile {
         tell(profile.in_words(&results, rayon::current_num_threads()).trim_end_matches('\n'));
     }
@@ -79,7 +71,9 @@ fn request(
     let (title, committed, named) = match (suite, &command.suite) {
         (Some(suite), Some(folder)) => {
             let named = |study: &crate::study::Study| (study.name().to_owned(), command.tier.unwrap_or(study.tier()));
-            (name_of(folder), CommittedValues::OfSuite(folder.clone()), suite.studies().iter().map(named).collect())
+            let committed = CommittedValues::OfSuite(folder.clone());
+            committed.refuse_orphans(&suite.studies().iter().map(crate::study::Study::name).collect::<Vec<_>>())?;
+            (name_of(folder), committed, suite.studies().iter().map(named).collect())
         }
         _ => {
             let tier = command.tier.unwrap_or(Tier::Quick);
@@ -87,9 +81,6 @@ fn request(
             ("Bagnold validation report".to_owned(), CommittedValues::OfCases, named)
         }
     };
-    if let Some(suite) = suite {
-        committed.refuse_orphans(&suite.studies().iter().map(crate::study::Study::name).collect::<Vec<_>>())?;
-    }
     let writes_elsewhere = command.accept || command.junit.is_some() || command.profile;
     let is_repeated = !writes_elsewhere && !command.work.fresh && command.against.is_none() && suite.is_none();
     Ok(ReportRequest {

@@ -5,8 +5,8 @@ use super::error::ProgramError;
 use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
-use super::simulation::{announce, estimate, introduce, reject_fast, simulate_showing};
-use super::{Exit, say, terminal};
+use super::simulation::{announce, estimate, introduce, reject_fast, simulate};
+use super::{Exit, Session, terminal};
 use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, Tier, settings_to_vary};
 use crate::checkpoint::{BULK_MODULUS, Checkpoints, StoredState};
 use crate::measured::{draw_measured, read_overlay};
@@ -14,7 +14,6 @@ use crate::output::{FileError, OutputFolder, caution_of_shipped};
 use crate::report::{Baseline, CommittedValues, SingleRun};
 use crate::result::States;
 use crate::store::{CodeOrigin, StorePolicy};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -56,12 +55,8 @@ fn newest_state(folder: &Path, command: &RunArguments, registry: Registry) -> Re
 }
 
 /// Simulates, judges, writes and prints one case.
-pub(super) fn run(
-    command: &RunArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+pub(super) fn run(command: &RunArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let Session { registry, quiet, .. } = *session;
     let start = command.from.as_deref().map(|given| start_setting(given, command, registry)).transpose()?;
     let vary = settings_to_vary(&command.vary).map_err(ParameterError::from)?;
     let settings: Vec<String> = command.settings.iter().cloned().chain(vary).chain(start).collect();
@@ -82,14 +77,12 @@ pub(super) fn run(
             }
             (error, _) => error,
         })?;
-    let wanted = match command.output_every {
-        Some(every) => Some(OutputPlan::new(every, command.output_fields.clone()).map_err(ParameterError::from)?),
-        None => wanted,
-    };
+    let asked = command.output_every.map(|every| OutputPlan::new(every, command.output_fields.clone())).transpose();
+    let wanted = asked.map_err(ParameterError::from)?.or(wanted);
     let overlay = read_overlay(prepared.as_ref(), &overlay, &command.overlay)?;
     let store = command.work.open_store().with_ends();
     if command.estimate {
-        say(output, &estimate(std::slice::from_ref(&prepared), &store));
+        session.say(&estimate(std::slice::from_ref(&prepared), &store));
         return Ok(Exit::Held);
     }
     let folder =
@@ -101,7 +94,7 @@ pub(super) fn run(
     let judged_by = SingleRun { has_own_parameters, ..judged_by };
     let mut profile = StageTimer::begin();
     let states = wanted.as_ref().map(|plan| States::of(prepared.as_ref(), plan, &claimed.staging().join("states")));
-    let results = simulate_showing(vec![prepared], &store, quiet, states.as_ref(), Some(&expectation))?;
+    let results = simulate(vec![prepared], &store, quiet, states.as_ref(), Some(&expectation))?;
     reject_fast(&results, command.deny_warnings)?;
     states.map_or(Ok(()), States::finish).map_err(|error| FileError::unwritable(&folder, &error))?;
     profile.over("runs and their figures");
@@ -114,9 +107,8 @@ pub(super) fn run(
     }
     // states on the way take a time of their own
     let expectation = Some(expectation).filter(|_| wanted.is_none());
-    let publication =
-        Publication { command, registry, claimed, store: &store, expectation, profile, measured: overlay };
-    publication.publish(judged_by, result, output)
+    let publication = Publication { command, claimed, store: &store, expectation, profile, measured: overlay };
+    publication.publish(judged_by, result, session)
 }
 
 /// What a case is judged by: the baseline of the case as it comes, of which a study in a file has none.

@@ -77,20 +77,8 @@ pub fn warn_of_fast(results: &[CaseResult]) {
 
 /// Rejects an input that was warned of, if the user asks for that.
 fn reject_warnings(is_denied: bool) -> Result<(), ProgramError> {
-    match cautions().len() {
-        count if is_denied && count > 0 => Err(ProgramError::Cautions { count }),
-        _ => Ok(()),
-    }
-}
-
-/// Simulates with a progress bar.
-pub(super) fn simulate(
-    cases: Vec<Box<dyn PreparedCase>>,
-    store: &Store,
-    quiet: bool,
-    expectation: Option<&Expectation>,
-) -> Result<Vec<CaseResult>, ParameterError> {
-    simulate_showing(cases, store, quiet, None, expectation)
+    let count = cautions().len();
+    if is_denied && count > 0 { Err(ProgramError::Cautions { count }) } else { Ok(()) }
 }
 
 /// Prints the expected cost of the runs of a command, and simulates them with a progress bar.
@@ -104,11 +92,11 @@ pub fn simulate_announced(
     quiet: bool,
 ) -> Result<Vec<CaseResult>, ParameterError> {
     let expectation = announce(command, &cases, store, quiet);
-    simulate(cases, store, quiet, Some(&expectation))
+    simulate(cases, store, quiet, None, Some(&expectation))
 }
 
-/// Simulates with a progress bar, and shows states on the way.
-pub(super) fn simulate_showing(
+/// Simulates with a progress bar, and shows states on the way where they are wanted.
+pub(super) fn simulate(
     cases: Vec<Box<dyn PreparedCase>>,
     store: &Store,
     quiet: bool,

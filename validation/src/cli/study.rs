@@ -6,12 +6,11 @@ use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
 use super::simulation::{announce, estimate, introduce, reject_fast, simulate};
-use super::{Exit, say, terminal};
+use super::{Exit, Session, terminal};
 use crate::case::{ParameterError, Registry};
 use crate::output::OutputFolder;
 use crate::report::{Baseline, CommittedValues, SingleRun};
 use crate::study::{Study, is_study};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -22,13 +21,8 @@ pub(super) fn file(target: &str, registry: Registry) -> Option<PathBuf> {
 }
 
 /// Simulates, judges, writes and prints a study.
-pub(super) fn run(
-    file: &Path,
-    command: &RunArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+pub(super) fn run(file: &Path, command: &RunArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let Session { registry, quiet, .. } = *session;
     refuse_what_cases_take(command)?;
     let study = Study::read(file, registry)?;
     let tier = command.tier.unwrap_or(study.tier());
@@ -36,7 +30,7 @@ pub(super) fn run(
     let study = study.told_with(&command.settings);
     let store = command.work.open_store();
     if command.estimate {
-        say(output, &estimate(&cases, &store));
+        session.say(&estimate(&cases, &store));
         return Ok(Exit::Held);
     }
     let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", study.name())));
@@ -59,14 +53,14 @@ pub(super) fn run(
         terminal: terminal::shape(),
     };
     let mut profile = StageTimer::begin();
-    let results = simulate(cases, &store, quiet, Some(&expectation))?;
+    let results = simulate(cases, &store, quiet, None, Some(&expectation))?;
     reject_fast(&results, command.deny_warnings)?;
     profile.over("runs and their figures");
     let mut result = study.judge(results)?;
     add_panels(&mut result.figures, &command.panels)?;
     let measured = study.measurements().cloned().collect();
-    let publication = Publication { command, registry, claimed, store: &store, expectation: None, profile, measured };
-    publication.publish(judged_by, result, output)
+    let publication = Publication { command, claimed, store: &store, expectation: None, profile, measured };
+    publication.publish(judged_by, result, session)
 }
 
 /// Options that mean one case.

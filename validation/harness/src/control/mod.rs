@@ -11,7 +11,7 @@ mod series;
 mod table;
 mod trial;
 
-pub use reading::{ControlError, of_case};
+pub use reading::of_case;
 pub use series::ErrorSeries;
 pub use table::TriedControls;
 pub use trial::{Answer, ControlTrial, Found};

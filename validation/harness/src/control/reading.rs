@@ -15,16 +15,6 @@ struct File {
     controls: Vec<Control>,
 }
 
-/// Controls that cannot be read; the message completes "failed to …".
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("read {file}: {message}")]
-pub struct ControlError {
-    /// File of the controls.
-    pub file: String,
-    /// The defect and its remedy.
-    pub message: String,
-}
-
 /// The text of a file beside the controls; none where there is none.
 pub(super) fn text(file: &str) -> Option<&'static str> {
     FILES.iter().find(|(name, _)| *name == file).map(|(_, text)| *text)
@@ -39,8 +29,9 @@ pub fn of_case(case: &str) -> Vec<Control> {
     text(&file).map_or_else(Vec::new, |text| parse(&file, text).unwrap_or_else(|error| panic!("failed to {error}")))
 }
 
-fn parse(file: &str, text: &str) -> Result<Vec<Control>, ControlError> {
-    let refuse = |message: String| ControlError { file: format!("controls/{file}"), message };
+/// The controls of a file, or a message that completes "failed to …": the file, the defect and its remedy.
+fn parse(file: &str, text: &str) -> Result<Vec<Control>, String> {
+    let refuse = |message: String| format!("read controls/{file}: {message}");
     let rows: File = toml::from_str(text).map_err(|error| refuse(error.to_string().trim_end().to_owned()))?;
     let mut controls: Vec<Control> = Vec::new();
     for row in rows.controls {

@@ -51,10 +51,7 @@ impl ControlTrial {
         (wrong, wrong_runs): (&[Metric], &[Variant]),
         diverged: bool,
     ) -> Self {
-        let has_run = |variant: &Variant| {
-            let own = variant.run_among(right_runs);
-            own.is_some_and(|own| wrong_runs.contains(own))
-        };
+        let has_run = |variant: &Variant| variant.run_among(right_runs).is_some_and(|own| wrong_runs.contains(own));
         let found = right.iter().filter_map(|metric| {
             let is_it = |other: &&Metric| (&other.name, &other.variant) == (&metric.name, &metric.variant);
             let tried = wrong.iter().find(is_it);

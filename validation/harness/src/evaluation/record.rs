@@ -79,13 +79,10 @@ impl EvaluationRecord {
 
     /// The record in a file; `None` if there is none, it is damaged or it belongs to another key.
     pub fn read(path: &Path, key: &str) -> Option<Self> {
-        match entry::read::<Self>(path, key) {
-            Ok(record) => record,
-            Err(damage) => {
-                tracing::warn!("{}: {damage}; simulated again", path.display());
-                None
-            }
-        }
+        entry::read(path, key).unwrap_or_else(|damage| {
+            tracing::warn!("{}: {damage}; simulated again", path.display());
+            None
+        })
     }
 
     /// Writes the record so that a reader sees all of it or nothing.

@@ -25,10 +25,9 @@ pub struct SensitivityPlan {
 impl SensitivityPlan {
     /// Plan that propagates the stated ranges of a case; empty if none are stated.
     pub fn of(case: &str) -> Self {
-        let Some(stated) = StatedUncertainty::of(case) else { return Self { steps: Vec::new() } };
-        if stated.ranges.is_empty() && stated.spacings.is_empty() {
-            return Self { steps: Vec::new() };
-        }
+        let stated = StatedUncertainty::of(case);
+        let stated = stated.filter(|stated| !stated.ranges.is_empty() || !stated.spacings.is_empty());
+        let Some(stated) = stated else { return Self { steps: Vec::new() } };
         let all = &stated.runs.only[..];
         let mut ends: Vec<(&str, RangeEnd, &[String], &[Variant])> = vec![("", RangeEnd::Own, &[], all)];
         for range in &stated.ranges {

@@ -202,12 +202,10 @@ impl MeasuredData {
 
     /// A label column of upper ends of ranges: numbers, or `open` for infinity.
     pub fn upper_ends(&self, column: &str) -> Result<Vec<f64>, FieldError> {
+        let refused = |text: &str| self.bad_label(column, text, "finite numbers and `open`");
         let end = |label: &String| match label.as_str() {
             "open" => Ok(f64::INFINITY),
-            text => match text.parse::<f64>() {
-                Ok(value) if value.is_finite() => Ok(value),
-                _ => Err(self.bad_label(column, text, "finite numbers and `open`")),
-            },
+            text => text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| refused(text)),
         };
         self.labels(column)?.iter().map(end).collect()
     }

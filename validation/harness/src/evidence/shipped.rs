@@ -46,10 +46,7 @@ pub(super) fn carried<T, E: Display>(
 /// If the table is not what `read` expects. No user can bring that about: the tables are part of the program, and tests
 /// read every one of them.
 pub fn read_shipped<T>(name: &str, read: impl FnOnce(&MeasuredData) -> Result<T, FieldError>) -> T {
-    match shipped_table(name).and_then(|table| read(&table)) {
-        Ok(value) => value,
-        Err(error) => panic!("{error}"),
-    }
+    shipped_table(name).and_then(|table| read(&table)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[cfg(test)]

@@ -66,8 +66,7 @@ fn found(word: &str, symbols: &[(&str, f64, UnitExponents)]) -> Option<(f64, Uni
 /// A symbol and its power: `cm^3`, `cm³`, `m2`, `s^-1`.
 fn powered(word: &str) -> Option<(&str, i32)> {
     if let Some((symbol, power)) = word.split_once('^') {
-        let power = power.parse().ok().filter(|power: &i32| power.abs() <= 9)?;
-        return Some((symbol, power));
+        return Some((symbol, power.parse().ok().filter(|power: &i32| power.abs() <= 9)?));
     }
     for (ending, power) in [("²", 2), ("³", 3), ("2", 2), ("3", 3)] {
         if let Some(symbol) = word.strip_suffix(ending).filter(|symbol| !symbol.is_empty()) {

@@ -258,10 +258,7 @@ impl Metric {
 
     /// Adds a gate where there is a limit; else it stays observed.
     pub fn gated_by(self, limit: Option<Limit>, reason: &str) -> Self {
-        match limit {
-            Some(limit) => self.gated(limit, reason),
-            None => self,
-        }
+        if let Some(limit) = limit { self.gated(limit, reason) } else { self }
     }
 
     /// Adds a reference.
@@ -361,15 +358,11 @@ impl Metric {
     pub fn verdict(&self) -> Verdict {
         let unverified =
             self.reference.as_ref().is_some_and(|reference| reference.confidence == Confidence::Unverified);
-        match &self.gate {
-            Some(gate) if !unverified && !self.is_coarser_than_gate() => {
-                if gate.limit.holds(self.value) {
-                    Verdict::Pass
-                } else {
-                    Verdict::Fail
-                }
-            }
-            _ => Verdict::Observed,
+        let judging = self.gate.as_ref().filter(|_| !unverified && !self.is_coarser_than_gate());
+        match judging.map(|gate| gate.limit.holds(self.value)) {
+            Some(true) => Verdict::Pass,
+            Some(false) => Verdict::Fail,
+            None => Verdict::Observed,
         }
     }
 }

@@ -53,7 +53,7 @@ pub(super) fn finish(folder: &Path) -> io::Result<()> {
         }
     }
     for name in others.iter().chain(&results) {
-        shift(&committed, folder, name)?;
+        unless_missing(std::fs::rename(committed.join(name), folder.join(name)))?;
     }
     write_marker(folder, &new)?;
     // by one rename: half of it must not be taken for committed contents
@@ -63,11 +63,11 @@ pub(super) fn finish(folder: &Path) -> io::Result<()> {
     settle(folder)
 }
 
-/// Moves an entry, if there is one, to another folder.
-fn shift(from: &Path, to: &Path, name: &str) -> io::Result<()> {
-    match std::fs::rename(from.join(name), to.join(name)) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
+/// Success also of what found nothing to be done.
+fn unless_missing(done: io::Result<()>) -> io::Result<()> {
+    match done {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        done => done,
     }
 }
 
@@ -90,10 +90,7 @@ fn read_marker(folder: &Path) -> BTreeSet<String> {
 pub(super) fn remove(path: &Path) -> io::Result<()> {
     let is_folder = path.symlink_metadata().is_ok_and(|metadata| metadata.is_dir());
     let removed = if is_folder { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
-    match removed {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
+    unless_missing(removed)
 }
 
 #[cfg(test)]

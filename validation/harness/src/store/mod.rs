@@ -65,13 +65,7 @@ pub struct Store {
 
 /// Identifies a run of a case by this version of the sources.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StoreKey(String);
-
-impl std::fmt::Display for StoreKey {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(&self.0)
-    }
-}
+pub struct StoreKey(pub(crate) String);
 
 impl Store {
     /// The store at its usual place: `BAGNOLD_STORE`; else, if one works in the workspace that this program was built
@@ -168,13 +162,10 @@ impl Store {
             return None;
         }
         adopt(&self.folder, &self.path(key));
-        match entry::read(&self.path(key), &key.0) {
-            Ok(record) => record,
-            Err(damage) => {
-                tracing::warn!("stored result {}: {damage}; simulated again", self.path(key).display());
-                None
-            }
-        }
+        entry::read(&self.path(key), &key.0).unwrap_or_else(|damage| {
+            tracing::warn!("stored result {}: {damage}; simulated again", self.path(key).display());
+            None
+        })
     }
 
     /// Keeps a record, whose run then needs no checkpoint. A store that cannot be written costs time later, but is no reason

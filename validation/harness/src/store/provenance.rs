@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 /// Sources and build of a program.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Build {
     /// SHA-256 of everything that a result depends on: sources, locked dependencies, compiler, profile, instruction set.
     pub source_hash: &'static str,
@@ -26,25 +26,15 @@ pub struct Build {
 
 static BUILD: OnceLock<Build> = OnceLock::new();
 
-/// Build of a program that declares nothing: its results are known by its own file.
-const UNDECLARED: Build = Build {
-    source_hash: "",
-    solver_hash: "",
-    simulation_hashes: &[],
-    commit: "unknown",
-    profile: "unknown",
-    solver_opt_level: "",
-    target_features: "",
-};
-
 /// Declares what the program is built from. The first declaration counts.
 pub fn declare(build: Build) {
     let _: &Build = BUILD.get_or_init(|| build);
 }
 
-/// The declared build.
+/// The declared build. The results of a program that declares nothing are known by its own file.
 fn build() -> Build {
-    BUILD.get().copied().unwrap_or(UNDECLARED)
+    let undeclared = || Build { commit: "unknown", profile: "unknown", ..Build::default() };
+    BUILD.get().copied().unwrap_or_else(undeclared)
 }
 
 /// Whether the program has declared what it is built from.

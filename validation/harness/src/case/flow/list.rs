@@ -329,10 +329,7 @@ pub fn settings_to_vary(arguments: &[String]) -> Result<Vec<String>, FieldError>
         let list =
             toml::from_str::<Table>(&format!("values = {text}")).ok().and_then(|mut table| table.remove("values"));
         let words = || values.split(',').map(|word| Value::String(word.trim().to_owned())).collect();
-        let values = match list {
-            Some(Value::Array(values)) => values,
-            _ => words(),
-        };
+        let values = if let Some(Value::Array(values)) = list { values } else { words() };
         vary.push(VariedParameter { path: path.to_owned(), name: None, values, paper: None, fine: None });
     }
     check_vary("--", &vary, &[])?;

@@ -56,10 +56,7 @@ impl ParameterError {
     /// Marks the parameter at fault as part of a group of parameters.
     #[must_use]
     pub fn within(self, group: &str) -> Self {
-        match self {
-            Self::Field(error) => Self::Field(error.within(group)),
-            other => other,
-        }
+        if let Self::Field(error) = self { Self::Field(error.within(group)) } else { self }
     }
 
     /// The place in a plan of what only a plan's block says: which runs are meant.
@@ -69,10 +66,7 @@ impl ParameterError {
 
     /// The dotted path of the parameter at fault, if the error is about one.
     pub fn field_path(&self) -> Option<&str> {
-        match self {
-            Self::Field(error) => Some(&error.field),
-            _ => None,
-        }
+        if let Self::Field(error) = self { Some(&error.field) } else { None }
     }
 
     /// Whether a `--set` has the wrong form, path or type, whatever the other parameters are.
@@ -111,9 +105,8 @@ impl ParameterError {
 
     /// Adds the plan file that contains the field; settings of a plan are its values.
     pub fn in_plan(mut self, plan: &Path) -> Self {
-        match &mut self {
-            Self::Field(FieldError { origin, .. }) if matches!(origin, Some(Origin::Setting(_))) => *origin = None,
-            _ => {}
+        if let Self::Field(FieldError { origin: origin @ Some(Origin::Setting(_)), .. }) = &mut self {
+            *origin = None;
         }
         self.in_file(plan)
     }

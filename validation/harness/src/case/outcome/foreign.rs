@@ -123,12 +123,9 @@ impl ExternalResult {
     /// Whether a metric may be judged: the data given for its run, or for one of its runs, suffice.
     pub fn is_measured(&self, metric: &Metric) -> bool {
         let suffices = |names: &[&str]| names.contains(&metric.name.as_str());
-        let own: Vec<_> = self.measured.iter().filter(|(variant, _)| metric.variant.includes(variant)).collect();
-        let (mut own, mut all) = (own.iter(), self.measured.iter());
-        match own.len() {
-            0 => all.any(|(_, names)| suffices(names)),
-            _ => own.any(|(_, names)| suffices(names)),
-        }
+        let is_own = |variant: &Variant| metric.variant.includes(variant);
+        let has_own = self.measured.iter().any(|(variant, _)| is_own(variant));
+        self.measured.iter().any(|(variant, names)| (is_own(variant) || !has_own) && suffices(names))
     }
 }
 

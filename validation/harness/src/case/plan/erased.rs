@@ -323,7 +323,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     }
 
     fn identity(&self, run: usize, store: &Store) -> Option<String> {
-        store.key(C::ORIGIN, self.name(), &self.slots[run].0).map(|key| key.to_string())
+        store.key(C::ORIGIN, self.name(), &self.slots[run].0).map(|key| key.0)
     }
 
     fn kept_state(&self, run: usize, store: &Store) -> Option<PathBuf> {

@@ -75,11 +75,8 @@ impl Estimate {
     pub(in crate::case) fn excess(&self, limits: &Limits) -> f64 {
         let excess = (self.memory(1) / limits.memory).max(self.core_seconds / 3600.0 / limits.core_hours);
         // a run whose cost is not even a number is beyond any limit
-        if excess.is_finite() && self.memory(1).is_finite() && self.core_seconds.is_finite() {
-            excess
-        } else {
-            f64::INFINITY
-        }
+        let is_known = excess.is_finite() && self.memory(1).is_finite() && self.core_seconds.is_finite();
+        if is_known { excess } else { f64::INFINITY }
     }
 
     /// The limit that it breaks: the defect, as it follows the value in the message, and the remedy.

@@ -76,10 +76,7 @@ fn fill_fields(schema: &mut Schema, default: &Value) {
 }
 
 fn fill_choice(schema: &mut Schema, default: &Value) {
-    let name = match Shape::of(schema).chosen(default) {
-        Some(variant) => variant.name.to_owned(),
-        None => return,
-    };
+    let Some(name) = Shape::of(schema).chosen(default).map(|variant| variant.name.to_owned()) else { return };
     let tagged = matches!(Shape::of(schema), Shape::Tagged { .. });
     let alternatives = ["oneOf", "anyOf"].into_iter().find(|key| schema.get(key).is_some());
     let Some(alternatives) = alternatives.and_then(|key| schema.get_mut(key)).and_then(Schema::as_array_mut) else {
