@@ -314,6 +314,10 @@ fn a_series_of_the_front_of_a_scene_is_judged_by_what_its_file_says_was_measured
         &submission.replace("own/tables/gauges-scene-flume.csv", "far.csv").replace("toe: front", "front"),
     );
     judge(1);
+    // where nothing was measured, nothing is judged, which is no success
+    place.file("mine.toml", submission);
+    place.file("flume.toml", FLUME.split("[[measured]]").next().expect("text"));
+    judge(1);
     // a scene in which nothing measures a front
     let without = FLUME.split("[[gauges]]").next().expect("text");
     place.file("flume.toml", without);

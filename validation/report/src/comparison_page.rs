@@ -103,8 +103,11 @@ fn dominant(metric: &Metric) -> String {
     let most = metric.uncertainty.largest(ComparisonPart::Input);
     let words = |(own, share): (&UncertaintyComponent, f64)| {
         let is_alone = share > 0.995;
-        let of_all = if is_alone { String::new() } else { format!("{} % of u_input²: ", two_digits(100.0 * share)) };
-        of_all + own.name()
+        if is_alone {
+            own.name().to_owned()
+        } else {
+            format!("{} % of u_input²: {}", two_digits(100.0 * share), own.name())
+        }
     };
     most.map(words).unwrap_or_default()
 }

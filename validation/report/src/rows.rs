@@ -136,8 +136,10 @@ pub(super) fn margin_share(metric: &Metric) -> Option<f64> {
         Limit::Within(lower, upper) => 0.5 * (upper - lower).abs(),
     };
     let share = limit.margin(metric.value) / scale;
-    let beyond_all = (metric.verdict() == Verdict::Fail).then_some(f64::NEG_INFINITY);
-    Some(share).filter(|share| share.is_finite()).or(beyond_all)
+    match metric.verdict() {
+        Verdict::Fail if !share.is_finite() => Some(f64::NEG_INFINITY),
+        _ => Some(share).filter(|share| share.is_finite()),
+    }
 }
 
 fn relative_margin(metric: &Metric) -> String {

@@ -119,8 +119,11 @@ pub(super) fn not_judged(gates: &[(MetricKey, String)]) -> String {
 pub(super) fn without_reference(gates: impl Iterator<Item = MetricKey>) -> String {
     let names: BTreeSet<String> = gates.map(|key| key.metric).collect();
     let names: Vec<String> = names.into_iter().collect();
-    let line = format!("without a reference for these parameters, so not judged: {}\n", names.join(", "));
-    if names.is_empty() { String::new() } else { line }
+    if names.is_empty() {
+        String::new()
+    } else {
+        format!("without a reference for these parameters, so not judged: {}\n", names.join(", "))
+    }
 }
 
 /// Rows under their heading; cells that do not fit into the width go on in the next line.

@@ -35,7 +35,7 @@ pub(super) fn judge(command: &JudgeArguments, session: &mut Session<'_>) -> Resu
     session.say(&format!("{}. Report: {}\n", all.in_words(), folder.join("index.html").display()));
     // what was not judged is no success either
     let mut tallies = judgement.codes.iter().map(judge::JudgedCode::tally);
-    let fails = tallies.any(|own| own.of(Severity::NewFailure) > 0 || own.all() > 0 && own.of(Severity::Pass) == 0);
+    let fails = tallies.any(|own| own.of(Severity::NewFailure) > 0 || own.of(Severity::Pass) == 0);
     Ok(if exit == Exit::Held && fails { Exit::GateFailed } else { exit })
 }
 
@@ -81,10 +81,10 @@ fn verdicts(judgement: &CodeComparison) -> String {
         let failed =
             judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
         let table = report::of_metrics(failed, terminal::shape());
-        let nothing = if tally.all() > 0 && tally.of(Severity::NotJudged) == tally.all() {
-            "no gate was judged; the page lists the data that each gate needs\n"
-        } else {
-            ""
+        let nothing = match tally.all() - tally.of(Severity::NotJudged) {
+            0 if tally.all() == 0 => "no gate was judged: the case has none; a scene has those of its [[measured]]\n",
+            0 => "no gate was judged; the page lists the data that each gate needs\n",
+            _ => "",
         };
         let gated = judged.metrics.iter().filter(|one| one.own.verdict() != Verdict::Observed);
         let open: BTreeSet<&str> =

@@ -101,7 +101,7 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
     text +=
         &format!("closures      95 % interval of {steady} steady layers from {all} draws: {by_closures} kg/(m s)\n");
     let measured = own.rates.as_ref().map_or_else(
-        || "fewer than ten runs near this Shields number; scatter of all runs above 0.1 is used".to_owned(),
+        || "fewer than ten runs near this Shields number; the scatter of all runs above 0.1 is used".to_owned(),
         |rates| {
             let median = of(rates.median * own.formula * unit);
             format!("{median} kg/(m s), median of {} runs near this Shields number", rates.number)

@@ -27,8 +27,10 @@ pub enum ColumnSource {
 impl ColumnSource {
     /// `"x [cm]"` for a column, `{ value = 0.25, unit = "cm^2" }` for what is the same for all.
     pub fn parse(value: &toml::Value, field: &str) -> Result<Self, FieldError> {
-        const REMEDY: &str = "write \"x [cm]\" for a column, or { value = 0.25, unit = \"cm^2\" } for a constant";
-        let wrong = |text: String| FieldError::new(field, text, "a heading with its unit in brackets", REMEDY);
+        let own = value.as_str().unwrap_or("x");
+        let remedy =
+            format!("write \"{own} [cm]\" for a column, or {{ value = 0.25, unit = \"cm^2\" }} for a constant");
+        let wrong = |text: String| FieldError::new(field, text, "a heading with its unit in brackets", &remedy);
         match value {
             toml::Value::String(text) => {
                 let (name, unit) = name_and_unit(text).ok_or_else(|| wrong(format!("\"{text}\"")))?;

@@ -142,9 +142,14 @@ fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<V
             let is_meant = |own: &str| !unit.is_empty() && (own == text || own == bare);
             if !headings.iter().any(|own| is_meant(own)) {
                 let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
-                let remedy =
-                    "write front = \"toe [cm]\"; if the heading has no unit in brackets, add it: \"toe (cm) [cm]\"";
-                return Err(FieldError::new(&format!("columns.{name}"), one, &rule, remedy));
+                let own = headings.iter().find(|own| **own == text).or(headings.last()).unwrap_or(&"toe");
+                let remedy = format!("write the heading and its unit in brackets, such as {name} = \"{own} [cm]\"");
+                return Err(FieldError::new(&format!("columns.{name}"), one, &rule, &remedy));
+            }
+            let stated = bare.rsplit_once('(').and_then(|(_, rest)| rest.strip_suffix(')'));
+            if stated.is_some_and(|own| unit::is_known(own) && unit::factor(own, unit) != Some(1.0)) {
+                let (rule, remedy) = ("the unit that the heading states", "correct the unit in brackets");
+                return Err(FieldError::new(&format!("columns.{name}"), one, rule, remedy));
             }
             for (new, _) in renamed.iter_mut().zip(headings).filter(|(_, own)| is_meant(own)) {
                 *new = format!("{name} [{unit}]");

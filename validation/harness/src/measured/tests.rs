@@ -324,6 +324,13 @@ fn columns_are_found_by_their_names_or_by_those_that_a_plan_gives() {
         refused("front = \"to [cm]\"")
             .contains("`columns.front` is \"to [cm]\", but must be a heading of the file with its unit: toe, time")
     );
+    assert!(refused("front = \"toe\"").ends_with("such as front = \"toe [cm]\""));
+    let stated = ["toe (cm);t [s]\n10;1\n"];
+    let read = |columns: &str| read_of(&stated, columns, wanted);
+    let message = read("front = \"toe (cm) [mm]\", t = \"t [s]\"").expect_err("two units");
+    assert!(message.contains("must be the unit that the heading states"), "{message}");
+    let message = read("front = \"toe (cm) [cm]\", t = \"t [s]\"").expect_err("no uncertainty");
+    assert!(message.contains("front [cm] has no uncertainty"), "{message}");
     assert!(
         refused("t = \"time [ms]\", x = \"toe [cm]\"")
             .contains("no column `front` among toe, time, spread; rename one, or")

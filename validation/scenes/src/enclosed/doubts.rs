@@ -8,7 +8,6 @@ use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall};
 use super::sides::SceneSides;
 use super::{BodyPreparation, SceneFlow};
-use crate::checkpoint::is_interrupted;
 
 use bagnold_number::four_digits;
 use bagnold_solver::domain::AxisBoundary;
@@ -23,6 +22,8 @@ const ON_THE_SIDE: f64 = 0.5;
 /// Rows of particles below which the end of a layer jumps along the front `[-]`, and what rounding may take from them.
 const LEAST_ROWS: f64 = 2.0;
 const ROUNDING: f64 = 1e-9;
+/// Places at which a body's particles are looked for.
+const MOST_SITES: usize = 100_000;
 /// Farthest that one part of a scene reaches, over the farthest of all others `[-]`: a slip by 1000 is seen of parts down to a thirtieth.
 const FARTHEST: f64 = 30.0;
 
@@ -66,16 +67,19 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         self.bodies.iter().enumerate().flat_map(of_body)
     }
 
-    /// Bodies in which no place of a particle lies, but in those before them.
+    /// Bodies in which no place of a particle lies, but in those before them or beyond a side. A large one is not searched to its end,
+    /// for its cost is not judged yet.
     fn without_particles(&self) -> impl Iterator<Item = String> {
         groups(&self.bodies, &self.sides, self.spacing).into_iter().flat_map(move |LatticeGroup { lattice, bodies }| {
             bodies.into_iter().filter_map(move |body| {
-                let sites = || lattice.sites(self.bodies[body].extent());
-                let is_filled = || sites().any(|(_, place)| holder(&self.bodies, &place) == Some(body));
-                let what = format!(
-                    "`bodies[{body}]` has no particle of its own: it is thinner than a spacing or inside of others"
-                );
-                (!is_interrupted() && !is_filled()).then_some(what + "; reduce `spacing`, or remove it")
+                let mut sites = lattice.sites(self.sides.clip(self.bodies[body].extent()));
+                let is_of_another =
+                    |place: &Vector<D>| holder(&self.bodies, place) != Some(body) || !self.sides.hold(place);
+                let is_empty = sites.by_ref().take(MOST_SITES).all(|(_, place)| is_of_another(&place));
+                let why =
+                    "it is thinner than a spacing, inside of others or beyond a side; reduce `spacing`, or correct it";
+                (is_empty && sites.next().is_none())
+                    .then(|| format!("`bodies[{body}]` has no particle of its own: {why}"))
             })
         })
     }
@@ -252,10 +256,15 @@ mod tests {
             let body = |(left, right)| PlaneBody::Box { lower: (left, 0.0), upper: (right, 0.1), velocity: (0.0, 0.0) };
             doubts(|scene| scene.bodies = vec![body((0.0, 0.2)), body((lower, upper))])
         };
-        let told = "scene `step`: `bodies[1]` has no particle of its own: it is thinner than a spacing or inside of others; \
-                    reduce `spacing`, or remove it";
+        let told = "scene `step`: `bodies[1]` has no particle of its own: it is thinner than a spacing, inside of others or beyond \
+                    a side; reduce `spacing`, or correct it";
         assert_eq!([beside(0.2, 0.204), beside(0.4, 0.402), beside(0.05, 0.15)], [told; 3]);
         assert_eq!([beside(0.2, 0.21), beside(0.4, 0.408), beside(0.1, 0.3)], [""; 3]);
+        let beyond = doubts(|scene| {
+            scene.sides.right = DomainSide::Open(0.5);
+            scene.bodies.push(PlaneBody::Box { lower: (0.6, 0.0), upper: (0.7, 0.1), velocity: (0.0, 0.0) });
+        });
+        assert_eq!(beyond, told);
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::{Measurand, SceneFlow, SceneObservation, series};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
 use crate::statistics::{Extrapolation, interpolated};
+use bagnold_number::four_digits;
 
 /// Columns that an external code may give for a run.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
@@ -114,6 +115,7 @@ fn reaches(samples: &[(f64, f64)], (from, to): (f64, f64), what: &str) -> Result
     match ends {
         Some((first, last)) if first > from || last < to => {
             let needed = if from < to { format!("from {from} to {to} s") } else { format!("to {to} s") };
+            let [first, last] = [first, last].map(four_digits);
             let defect = format!("{first} to {last} s does not cover {what}: {needed}");
             let remedy = "give the front over that time, or leave the series out and give [run.numbers]";
             Err(FieldError::finding("series.time", defect, remedy))

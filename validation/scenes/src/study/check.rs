@@ -105,15 +105,15 @@ impl StudyCheck {
 
     /// The metric of a value that was read.
     pub(super) fn metric(&self, variant: &Variant, value: f64, unit: &str) -> Metric {
-        let is_exact = self.confidence == Confidence::Exact || self.source.is_none();
+        let is_verification = self.confidence == Confidence::Exact || self.source.is_none();
         let metric = Metric::observed(&self.name, variant, value, unit)
-            .of_kind(if is_exact { MetricKind::Verification } else { MetricKind::Validation })
+            .of_kind(if is_verification { MetricKind::Verification } else { MetricKind::Validation })
             .gated_by(self.limit, &self.reason)
             .as_wide_as_scatter(self.scatter)
             .with_snapshot_tolerance(1e-6, self.drift())
             .of_user();
         let Some(source) = &self.source else { return metric };
-        // perfect agreement with a measured series is no distance from it
+        // of a distance from a measured series, none is perfect
         let expected = self.read.measured().map_or(self.reference, |_| Some(0.0));
         let metric = metric.against(expected, source, self.confidence);
         metric.known_to(Origin::Experiment, self.standard_uncertainty, source)

@@ -104,7 +104,7 @@ fn stepped(plan: &CalibrationPlan, answer: &Answer, explored: &Explored, fit: &[
     let places: Vec<String> = (0..ends[0].len()).filter(|&k| ends[0][k] != ends[1][k]).map(name).collect();
     Some(format!(
         "χ² has steps, which more evaluations do not settle: `{}` is the same at {}, where it should differ by {} σ; refine \
-         `spacing`, measure thicker fronts, fit a series, or set `repeats`",
+         `spacing`, raise the `thickness` of front gauges, fit a series, or set `repeats`",
         fit[step.datum].label,
         places.join(", "),
         short_digits(step.promised, 2)

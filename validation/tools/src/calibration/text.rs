@@ -101,7 +101,7 @@ pub(super) struct CalibrationText {
     /// Trajectories of Morris' screening
     #[serde(default)]
     trajectories: usize,
-    /// Most evaluations for intervals and joint region, 16 per parameter if it is left out
+    /// Most evaluations for intervals and joint region, anew where a lower point turns up; 16 per parameter if it is left out
     region_evaluations: Option<usize>,
     /// Starting points; 2 + 2 per parameter, if it is left out
     starts: Option<usize>,

@@ -2,6 +2,7 @@
 
 use super::{CodeComparison, JudgedCode, MetricComparison};
 use crate::metric::{Metric, Verdict};
+use crate::number::with_unit;
 use crate::report::Severity;
 use crate::report::scatter::{QuantityBias, quantities_of};
 use crate::result::gates_digest;
@@ -96,9 +97,9 @@ pub(super) fn junit(judgement: &CodeComparison) -> String {
                 Some(Verdict::Fail) => {
                     let value = one.foreign.as_ref().map_or(f64::NAN, |foreign| foreign.value);
                     let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-                    status
-                        .set_type(Severity::NewFailure.word())
-                        .set_message(format!("{value} {}, limit {:?}", one.own.unit, gate.limit));
+                    let limit = gate.limit.in_words(|bound| with_unit(bound, &one.own.unit));
+                    status.set_type(Severity::NewFailure.word());
+                    status.set_message(format!("{}, limit {limit}", with_unit(value, &one.own.unit)));
                     status
                 }
                 Some(Verdict::Observed) => return None,
