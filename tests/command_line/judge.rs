@@ -318,6 +318,9 @@ fn a_series_of_the_front_of_a_scene_is_judged_by_what_its_file_says_was_measured
     place.file("mine.toml", submission);
     place.file("flume.toml", FLUME.split("[[measured]]").next().expect("text"));
     judge(1);
+    let told = place.bagnold(&["judge", "mine.toml", "--out", "judged"]).assert().code(1);
+    let told = String::from_utf8_lossy(&told.get_output().stdout).into_owned();
+    assert!(told.contains("no gate was judged: the case has none; a scene has those of its [[measured]]"), "{told}");
     // a scene in which nothing measures a front
     let without = FLUME.split("[[gauges]]").next().expect("text");
     place.file("flume.toml", without);

@@ -7,7 +7,6 @@ use super::{Measurand, SceneFlow, SceneObservation, series};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
 use crate::statistics::{Extrapolation, interpolated};
-use bagnold_number::four_digits;
 
 /// Columns that an external code may give for a run.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
@@ -115,7 +114,8 @@ fn reaches(samples: &[(f64, f64)], (from, to): (f64, f64), what: &str) -> Result
     match ends {
         Some((first, last)) if first > from || last < to => {
             let needed = if from < to { format!("from {from} to {to} s") } else { format!("to {to} s") };
-            let [first, last] = [first, last].map(four_digits);
+            // without what rounding leaves of times in other units
+            let [first, last] = [first, last].map(|time| (time * 1e9).round() / 1e9);
             let defect = format!("{first} to {last} s does not cover {what}: {needed}");
             let remedy = "give the front over that time, or leave the series out and give [run.numbers]";
             Err(FieldError::finding("series.time", defect, remedy))
@@ -177,6 +177,10 @@ mod tests {
             "`series.time`: 0 to 0.15 s does not cover the measurements: from 0.1 to 0.2 s; give the front over \
              that time, or leave the series out and give [run.numbers]"
         );
+        let nearly = judged(&scene(6.0), &given(&[0.0, 0.199_97], 1.0)).expect_err("a little too short");
+        assert!(nearly.contains("0 to 0.19997 s does not cover the measurements: from 0.1 to 0.2 s"), "{nearly}");
+        let rounded = judged(&scene(6.0), &given(&[0.0, 0.15 + f64::EPSILON], 1.0)).expect_err("too short");
+        assert!(rounded.contains("0 to 0.15 s does not"), "{rounded}");
         let late = judged(&scene(6.0), &given(&[0.15, 1.0], 1.0)).expect_err("begins too late");
         assert!(late.contains("0.15 to 1 s does not cover the measurements"), "{late}");
         // less than an interval of 5 ms before the end counts as the end, as in the scene's own series
