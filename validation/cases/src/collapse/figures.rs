@@ -178,9 +178,11 @@ fn deposits<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
 }
 
 fn histories<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
-    let mut front = Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("(front − r0)/(a r0) [-]"));
-    let mut energy =
-        Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("kinetic/initial potential energy [-]"));
+    let time = || Axis::linear("t/√(h0/g) [-]").over("t", "s", records.iter().map(|(run, _)| run.time_scale()));
+    let heights = records.iter().map(|(run, _)| run.initial_height() * run.half_width);
+    let way = Axis::linear("(front − r0)/(a r0) [-]").over("front − r0", "m", heights);
+    let mut front = Panel::new("", time(), way);
+    let mut energy = Panel::new("", time(), Axis::linear("kinetic/initial potential energy [-]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         let (data, a, scale) = (&record.data, run.initial_height(), run.time_scale());
         let time = || data.time.iter().map(|t| t / scale);

@@ -18,10 +18,12 @@ pub(crate) use field::before;
 pub use field::{FieldError, Origin};
 pub use measured_files::MeasuredFiles;
 pub(crate) use mesh::{MOST_TRIANGLES, Triangle, read_mesh};
-pub use name::{check_name, check_text, did_you_mean, is_same_heading, name_and_unit, nearest, parted};
+pub use name::{
+    check_name, check_text, did_you_mean, is_same_heading, is_uncertainty, name_and_unit, nearest, parted, unnumbered,
+};
 pub use number::number_in;
 pub use packed_triangles::PackedTriangles;
 pub(crate) use packed_triangles::packed;
 pub use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, open_file, read_bytes, read_own, read_text};
 pub use table::{is_mark, plain_lines, text_fault};
-pub use text_table::{TableRows, TextTable};
+pub use text_table::{TableRows, TextTable, of_repeats};

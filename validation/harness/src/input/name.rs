@@ -48,6 +48,21 @@ pub fn parted(text: &str) -> (&str, &str) {
     name_and_unit(text).unwrap_or((text.trim(), "-"))
 }
 
+/// Words of a heading of standard uncertainties.
+const UNCERTAINTY: [&str; 5] = ["uncertainty", "sigma", "σ", "std", "stdev"];
+
+/// Whether a column of this name holds standard uncertainties.
+pub fn is_uncertainty(name: &str) -> bool {
+    let name = name.to_lowercase();
+    name.split(|letter: char| !letter.is_alphanumeric()).any(|word| UNCERTAINTY.contains(&word))
+}
+
+/// Name of what was measured, without the number of a repeat: `front #2`.
+pub fn unnumbered(name: &str) -> &str {
+    let before = name.rsplit_once('#').filter(|(_, number)| number.parse::<u32>().is_ok());
+    before.map_or(name, |(name, _)| name.trim_end())
+}
+
 /// Equality of two headings by name and by unit, however that is spelt.
 pub fn is_same_heading(one: &str, other: &str) -> bool {
     let of_one_unit = |((name, unit), (other, of))| name == other && unit::factor(unit, of) == Some(1.0);

@@ -1,7 +1,7 @@
 //! Tables of numbers as programs write them: comma, semicolon, tab or blanks between the columns, comments before.
 
 use super::field::FieldError;
-use super::name::{did_you_mean, nearest};
+use super::name::{did_you_mean, name_and_unit, nearest, unnumbered};
 use super::table::{is_comment, number_remedy, plain_lines, row_remedy, text_fault};
 use std::path::Path;
 
@@ -52,12 +52,14 @@ impl TextTable {
         Ok(Self { headings, columns })
     }
 
-    /// A column by its heading; of repeats, which have the same heading, their mean.
+    /// A column by its heading; of repeats, which have the same heading but for a number such as `#2`, their mean.
     ///
     /// # Errors
     /// A heading that the file does not have; `field` is where it is asked for.
     pub fn column(&self, heading: &str, field: &str, file: &Path) -> Result<Vec<f64>, FieldError> {
-        let named = self.headings.iter().zip(&self.columns).filter(|(own, _)| *own == heading);
+        let is_there = self.headings.iter().any(|own| own == heading);
+        let is_meant = |own: &str| if is_there { own == heading } else { of_repeats(own) == heading };
+        let named = self.headings.iter().zip(&self.columns).filter(|(own, _)| is_meant(own));
         let repeats: Vec<&Vec<f64>> = named.map(|(_, column)| column).collect();
         let Some(first) = repeats.first() else {
             let guess = did_you_mean(&nearest(heading, self.headings.iter().map(String::as_str)));
@@ -69,6 +71,12 @@ impl TextTable {
         let mean = |row: usize| repeats.iter().map(|own| own[row]).sum::<f64>() / repeats.len() as f64;
         Ok((0..first.len()).map(mean).collect())
     }
+}
+
+/// A heading without the number of a repeat: `front [cm]` of `front #2 [cm]`.
+pub fn of_repeats(heading: &str) -> String {
+    name_and_unit(heading)
+        .map_or_else(|| unnumbered(heading).to_owned(), |(name, unit)| format!("{} [{unit}]", unnumbered(name)))
 }
 
 /// The words of a table, row by row, each row with the number of its line from 1.

@@ -7,7 +7,7 @@ use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::input::{FieldError, parted, unit};
 use crate::number::four_digits;
 use crate::statistics::{Extrapolation, interpolated};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Label of the band of a front whose section is half a row of particles more or less: its resolution.
 pub const HALF_A_ROW: &str = "half a row of particles more or less";
@@ -195,10 +195,12 @@ fn names(column: &NumberColumn, panel: &Panel, series: &Series) -> bool {
 /// The factor from a column's unit to that of an axis of its name; to a ratio also from the quantity that it is a ratio of.
 fn factor(column: &NumberColumn, axis: &Axis) -> Option<f64> {
     let (name, own) = parted(&axis.label);
-    if name == column.name {
+    // keyboards have no minus sign
+    let is_named = |name: &str| name.replace('−', "-") == column.name.replace('−', "-");
+    if is_named(name) {
         return unit::factor(&column.unit, own);
     }
-    let ratio = axis.ratio.as_ref().filter(|ratio| ratio.name == column.name)?;
+    let ratio = axis.ratio.as_ref().filter(|ratio| is_named(&ratio.name))?;
     let to_unit = unit::factor("-", own)?;
     unit::factor(&column.unit, &ratio.unit).map(|factor| factor * to_unit / ratio.scale)
 }
@@ -222,10 +224,18 @@ fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {
         let heads = panel.series.iter().filter_map(|one| heading(panel, one));
         heads.map(|head| format!(" or {}: {head}", panel.title)).collect()
     };
-    let there = drawn
-        .map(|(figure, panel)| format!("{}: {} and {}{}", figure.name, named(&panel.x), named(&panel.y), heads(panel)));
-    let there: BTreeSet<String> = there.collect();
-    let there: Vec<String> = there.into_iter().collect();
+    let mut there: BTreeMap<String, BTreeSet<&str>> = BTreeMap::new();
+    for (figure, panel) in drawn {
+        let axes = format!("{} and {}{}", named(&panel.x), named(&panel.y), heads(panel));
+        there.entry(axes).or_default().insert(&figure.name);
+    }
+    let listed = |(axes, figures): (&String, &BTreeSet<&str>)| {
+        let others = figures.len() - 1;
+        let others = if others == 0 { String::new() } else { format!(" and {others} more") };
+        figures.first().map(|first| format!("{first}{others}: {axes}"))
+    };
+    let mut there: Vec<String> = there.iter().filter_map(listed).collect();
+    there.sort();
     let rule = format!("the axes of one of the case's figures ({})", there.join("; "));
     let units = [&measurements.abscissa.unit, &measurements.measured.unit];
     let unknown =

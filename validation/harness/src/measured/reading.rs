@@ -3,7 +3,10 @@
 use super::{Measurements, Said};
 use crate::case::ParameterError;
 use crate::evidence::NumberColumn;
-use crate::input::{DOCUMENT, FieldError, MeasuredFiles, TableRows, name_and_unit, plain_lines, read_text, unit};
+use crate::input::{
+    DOCUMENT, FieldError, MeasuredFiles, TableRows, is_uncertainty, name_and_unit, plain_lines, read_text, unit,
+    unnumbered,
+};
 use crate::metric::Confidence;
 use crate::output::FileError;
 use crate::statistics::mean_and_variance;
@@ -12,9 +15,6 @@ use std::path::Path;
 
 /// Keys of comments that mean something here.
 const KEYS: [&str; 6] = ["limit", "figure", "panel", "curve", "source", "confidence"];
-
-/// Words of a heading of standard uncertainties.
-const UNCERTAINTY: [&str; 5] = ["uncertainty", "sigma", "σ", "std", "stdev"];
 
 /// A heading and a row of a file.
 const ROW: &str =
@@ -37,7 +37,7 @@ pub struct WantedColumns<'a> {
 impl WantedColumns<'_> {
     /// Test of a column for the measured quantity, by its name with or without the gauge in front.
     fn fits(&self, column: &NumberColumn) -> bool {
-        let name = repeated(&column.name);
+        let name = unnumbered(&column.name);
         let is_one = |wanted: &&str| name == *wanted || wanted.rsplit_once(": ").is_some_and(|(_, own)| own == name);
         self.quantity.is_empty() || self.quantity.iter().any(is_one)
     }
@@ -105,14 +105,14 @@ fn parse(
         }
     }
     let is_meant = |own: &NumberColumn| !wanted.quantity.is_empty() && wanted.fits(own);
-    let is_stated = |own: &&NumberColumn| is_uncertainty(own) && !is_meant(own);
+    let is_stated = |own: &&NumberColumn| is_uncertainty(&own.name) && !is_meant(own);
     let (stated, values): (Vec<&NumberColumn>, Vec<_>) = columns.iter().partition(is_stated);
     let is_over = |own: &&&NumberColumn| wanted.over.is_none_or(|name| own.name == name);
     let over = *values.iter().find(is_over).ok_or_else(|| wrong("", wanted.over.as_ref()))?;
     let has_rows_alone = wanted.over.is_none() && is_meant(over);
     let others = || values.iter().copied().filter(|own| has_rows_alone || !std::ptr::eq(*own, over));
     let first = others().find(|own| wanted.fits(own)).ok_or_else(|| wrong("", wanted.quantity.first()))?;
-    let is_repeat = |own: &&NumberColumn| repeated(&own.name) == repeated(&first.name);
+    let is_repeat = |own: &&NumberColumn| unnumbered(&own.name) == unnumbered(&first.name);
     let (repeats, rest): (Vec<_>, Vec<_>) = others().partition(is_repeat);
     // a third column is the uncertainty, whatever its name
     let third = rest.first().copied().filter(|_| columns.len() == 3);
@@ -157,17 +157,6 @@ fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<V
         }
     }
     Ok(renamed)
-}
-
-/// Name of what was measured, without the number of a repeat: `front #2`.
-fn repeated(name: &str) -> &str {
-    let before = name.rsplit_once('#').filter(|(_, number)| number.parse::<u32>().is_ok());
-    before.map_or(name, |(name, _)| name.trim_end())
-}
-
-fn is_uncertainty(column: &NumberColumn) -> bool {
-    let name = column.name.to_lowercase();
-    name.split(|letter: char| !letter.is_alphanumeric()).any(|word| UNCERTAINTY.contains(&word))
 }
 
 /// Values of a column in another unit.
@@ -234,7 +223,7 @@ impl MeasuredColumns {
             said: said(&self.text)?,
             text: if is_as_it_stands { self.text.clone() } else { self.rewritten() },
             measured: NumberColumn {
-                name: repeated(&first.name).to_owned(),
+                name: unnumbered(&first.name).to_owned(),
                 unit: first.unit.clone(),
                 values: spread.iter().map(|row| row.0).collect(),
             },

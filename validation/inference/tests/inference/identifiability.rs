@@ -40,7 +40,7 @@ fn one_datum_does_not_determine_two_parameters() {
     let all = texts(&found);
     assert_eq!(
         all[1],
-        "the data do not determine `viscosity`: any value from 0.5 to 2.5 Pa·s agrees with them at 95 %"
+        "the data do not determine `viscosity`: any value from 0.5 to 2.5 Pa·s fits them as well as the best, at 95 %"
     );
     let Some(FindingKind::WeakDirection { free, fixed, reach, .. }) = found.last().map(|finding| &finding.kind) else {
         panic!("{all:?}")
@@ -65,7 +65,7 @@ fn nearly_collinear_parameters_are_known_together() {
         weak.to_string(),
         "near the best point the data fix 0.71 `viscosity` + 0.71 `friction` (each as a share of its range) but hardly 0.71 \
          `viscosity` − 0.71 `friction`: any point on the line from `viscosity` = 1.01 Pa·s, `friction` = 0.745 to `viscosity` \
-         = 1.99 Pa·s, `friction` = 0.255 agrees with them at 95 %"
+         = 1.99 Pa·s, `friction` = 0.255 fits them as well as the best, at 95 %"
     );
 }
 
@@ -79,7 +79,10 @@ fn a_minimum_at_a_bound_is_told() {
 #[test]
 fn an_interval_without_end_is_told() {
     let found = texts(&findings(|u| vec![50.0 * (u[0] - 0.5), 0.01 * (u[1] - 0.5), 0.0]));
-    assert_eq!(found, ["the data do not determine `friction`: any value from 0 to 1 agrees with them at 95 %"]);
+    assert_eq!(
+        found,
+        ["the data do not determine `friction`: any value from 0 to 1 fits them as well as the best, at 95 %"]
+    );
 }
 
 #[test]

@@ -49,11 +49,13 @@ pub(crate) fn observe<S: Dimension<D>, const D: usize>(
     let end = time.last().map_or(last_row, |given| given.clamp(last_row, run.duration));
     let mut measured = Vec::new();
     if points().next().is_some() {
-        reaches(&samples, (first, last), "the measurements")?;
+        reaches(&samples, (first, last), "the measurements", "")?;
         measured.push(GAUGE_ERROR.name);
     } else if at(end).is_none() {
         let end = run.duration;
-        reaches(&samples, (end, end), "the scene's end, where the front is compared")?;
+        let ends = samples.last().map_or(end, |last| last.0);
+        let shorter = format!(", shorten the scene by with = {{ duration = {ends} }}");
+        reaches(&samples, (end, end), "the scene's end, where the front is compared", &shorter)?;
     }
     // the front at the end is that of the scene's end, however long the other code went on
     let at_end = at(end).filter(|_| last <= end);
@@ -109,7 +111,7 @@ fn columns<S: Dimension<D>, const D: usize>(run: &SceneFlow<S, D>, gauge: &str, 
 }
 
 /// Refuses a series that does not reach over all times at which it is compared.
-fn reaches(samples: &[(f64, f64)], (from, to): (f64, f64), what: &str) -> Result<(), FieldError> {
+fn reaches(samples: &[(f64, f64)], (from, to): (f64, f64), what: &str, shorter: &str) -> Result<(), FieldError> {
     let ends = samples.first().zip(samples.last()).map(|(first, last)| (first.0, last.0));
     match ends {
         Some((first, last)) if first > from || last < to => {
@@ -117,8 +119,9 @@ fn reaches(samples: &[(f64, f64)], (from, to): (f64, f64), what: &str) -> Result
             // without what rounding leaves of times in other units
             let [first, last] = [first, last].map(|time| (time * 1e9).round() / 1e9);
             let defect = format!("{first} to {last} s does not cover {what}: {needed}");
-            let remedy = "give the front over that time, or leave the series out and give [run.numbers]";
-            Err(FieldError::finding("series.time", defect, remedy))
+            let remedy =
+                format!("give the front over that time{shorter}, or leave the series out and give [run.numbers]");
+            Err(FieldError::finding("series.time", defect, &remedy))
         }
         _ => Ok(()),
     }
@@ -136,7 +139,10 @@ mod tests {
     fn scene(limit: f64) -> PlaneFlow {
         let points = vec![(0.1, 0.1), (0.2, 0.2)];
         let source = "own flume".to_owned();
-        PlaneFlow { measured: vec![MeasuredSeries { gauge: "front".to_owned(), source, points, limit }], ..quick() }
+        PlaneFlow {
+            measured: vec![MeasuredSeries { gauge: "front".to_owned(), source, points, limit, file: String::new() }],
+            ..quick()
+        }
     }
 
     fn given(time: &[f64], speed: f64) -> ExternalData {

@@ -168,7 +168,7 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
             }
         };
         metrics.push(metric.with_snapshot_tolerance(0.1, 0.1 * largest(first)));
-        metrics.extend(errors(&own, &data.time, first, &series.measured));
+        metrics.extend(errors(&own, (&data.time, parameters.duration), first, &series.measured));
     }
     metrics
 }
@@ -289,8 +289,8 @@ fn numerical_viscosity<S: Dimension<D>, const D: usize>(
     Some(metric.against(Some(own).filter(|own| own.is_finite()), source, Confidence::Exact))
 }
 
-/// A gauge's series beside what was measured.
-fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&MeasuredSeries]) -> Vec<Metric> {
+/// A gauge's series beside what was measured; `time` is that of its rows and of the run's end.
+fn errors(variant: &Variant, time: (&[f64], f64), series: &[f64], measured: &[&MeasuredSeries]) -> Vec<Metric> {
     let error = |measured: &&MeasuredSeries| {
         let limit = (measured.limit > 0.0).then_some(Limit::AtMost(measured.limit));
         let ((error, compared), all) = (error(time, series, &measured.points), measured.points.len());
@@ -344,13 +344,15 @@ fn largest(series: &[f64]) -> f64 {
 }
 
 /// Root mean square of value/measured − 1 at the measured times at which the series has a value, and their number; NaN where it has none,
-/// or ends before.
-fn error(time: &[f64], series: &[f64], points: &[(f64, f64)]) -> (f64, usize) {
+/// or ends before. The last row may stand up to a row's time before the end of the run, up to which its line goes on.
+fn error((time, end): (&[f64], f64), series: &[f64], points: &[(f64, f64)]) -> (f64, usize) {
     let samples: Vec<(f64, f64)> = time.iter().copied().zip(series.iter().copied()).collect();
-    let at = |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Nothing));
+    let at = |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Line(1.0)));
+    let row = time.last().zip(time.iter().rev().nth(1)).map_or(0.0, |(last, before)| last - before);
+    let last = time.last().map(|last| last.max(end.min(last + row)));
     let square = |&(time, measured): &(f64, f64)| Some((at(time)? / measured - 1.0).powi(2));
     let squares: Vec<f64> = points.iter().filter_map(square).collect();
-    let is_whole = points.iter().all(|(at, _)| time.first() <= Some(at) && time.last() >= Some(at));
+    let is_whole = points.iter().all(|(at, _)| time.first() <= Some(at) && last.as_ref() >= Some(at));
     let mean = squares.iter().sum::<f64>() / squares.len() as f64;
     (if is_whole { mean.sqrt() } else { f64::NAN }, squares.len())
 }
@@ -375,12 +377,19 @@ mod tests {
     #[test]
     fn the_error_is_that_at_the_measured_times() {
         let (time, series) = ([0.0, 1.0, 2.0], [1.0, 2.0, 4.0]);
-        assert!(error(&time, &series, &[(0.0, 1.0), (0.5, 1.5), (2.0, 4.0)]).0 < 1e-15);
-        assert!((error(&time, &series, &[(1.5, 2.0)]).0 - 0.5).abs() < 1e-15);
-        assert!(error(&time, &series, &[(1.0, 2.0), (2.5, 4.0)]).0.is_nan(), "the run ended before");
+        let until = |end: f64| (&time[..], end);
+        assert!(error(until(2.0), &series, &[(0.0, 1.0), (0.5, 1.5), (2.0, 4.0)]).0 < 1e-15);
+        assert!((error(until(2.0), &series, &[(1.5, 2.0)]).0 - 0.5).abs() < 1e-15);
+        assert!(error(until(2.0), &series, &[(1.0, 2.0), (2.5, 4.0)]).0.is_nan(), "the run ended before");
+        assert_eq!(
+            error(until(2.5), &series, &[(1.0, 2.0), (2.5, 5.0)]),
+            (0.0, 2),
+            "the last row stands before the end"
+        );
+        assert!(error(until(4.0), &series, &[(1.0, 2.0), (3.5, 4.0)]).0.is_nan(), "more than a row before");
         // without a front at first
         let late = [ABSENT, 2.0, 4.0];
-        assert_eq!(error(&time, &late, &[(0.5, 9.0), (1.0, 2.0)]), (0.0, 1));
-        assert!(error(&time, &late, &[(0.5, 9.0)]).0.is_nan(), "nothing is compared");
+        assert_eq!(error(until(2.0), &late, &[(0.5, 9.0), (1.0, 2.0)]), (0.0, 1));
+        assert!(error(until(2.0), &late, &[(0.5, 9.0)]).0.is_nan(), "nothing is compared");
     }
 }

@@ -152,6 +152,17 @@ impl RunCurve {
         interpolated(&self.resolution, place, (Extrapolation::Nothing, Extrapolation::Nothing)).unwrap_or(0.0)
     }
 
+    /// Half a row at the place of a value that one row gives; 0 for what is taken of several.
+    pub(super) fn resolution_of(&self, reduction: Reduction) -> f64 {
+        let place = match reduction {
+            Reduction::First => self.wet().next().map(|point| point.0),
+            Reduction::Last => self.wet().next_back().map(|point| point.0),
+            Reduction::At(place) => Some(place),
+            _ => None,
+        };
+        place.map_or(0.0, |place| self.resolution_at(place))
+    }
+
     /// Uncertainty of measured points within a window, each with the resolution there; none where the distance knows no uncertainty.
     pub(super) fn beside_rows(&self, measured: &[[f64; 3]], (from, to): (f64, f64), by: Distance) -> Vec<(f64, f64)> {
         let meant = measured.iter().filter(|[x, ..]| by == Distance::Residual && *x >= from && *x <= to);

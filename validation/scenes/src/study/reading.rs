@@ -77,7 +77,10 @@ impl Study {
                             Reduction::Slope => format!("{own}/{over}"),
                             _ => own.to_owned(),
                         };
-                        readings.push(Reading::of_column(of_run(&curve.run), value, &unit, column, curve));
+                        let half = curve.resolution_of(*reduction);
+                        let mut reading = Reading::of_column(of_run(&curve.run), value, &unit, column, curve);
+                        reading.uncertainty.add(Origin::Numerical, Some(half), "half a row of particles");
+                        readings.push(reading);
                     }
                 }
                 CheckedQuantity::Distance(column, measured, distance) => {

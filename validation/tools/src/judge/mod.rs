@@ -139,8 +139,9 @@ impl CaseSubmissions {
             }
         }
         let case = registry.find(&first.case).map_err(|error| error.in_file(&first.path))?;
-        let changes = Changes { file: Some((&first.path, first.with.clone())), settings: &[], ..Changes::default() };
-        let all = case.prepare(first.tier, &changes).map_err(|error| error.in_plan(&first.path))?;
+        let file = first.parameter_file();
+        let changes = Changes { file: Some((&file, first.with.clone())), settings: &[], ..Changes::default() };
+        let all = case.prepare(first.tier, &changes).map_err(|error| first.placed(error))?;
         // the export has the tier's parameters, whatever a submission lays over them
         let exported = case.prepare(first.tier, &Changes::default()).map_err(|error| error.in_plan(&first.path))?;
         let inputs = inputs::digest(exported.parameters_toml());

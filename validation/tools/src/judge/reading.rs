@@ -6,7 +6,7 @@ use super::vtk::{self, NamedArrays, PLACES, PointArrays};
 use crate::case::{
     ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParameterError, ParticleFrame, RunScales,
 };
-use crate::input::{self, FieldError, TextTable, did_you_mean, name_and_unit, nearest, unit};
+use crate::input::{self, FieldError, TextTable, did_you_mean, name_and_unit, nearest, of_repeats, unit};
 use crate::measured::ColumnSource;
 use crate::output::FileError;
 use std::collections::BTreeMap;
@@ -100,10 +100,11 @@ pub(crate) fn plan(
 /// Columns that a file's headings name, with the first as what the others are given over.
 fn by_headings(table: &TextTable, items: &[ExternalColumn]) -> Result<BTreeMap<String, toml::Value>, FieldError> {
     let of_heading = |(place, heading): (usize, &String)| {
-        let (name, unit) = name_and_unit(heading)?;
+        let heading = of_repeats(heading);
+        let (name, unit) = name_and_unit(&heading)?;
         let is_over = |item: &&ExternalColumn| place == 0 && unit::factor(unit, item.unit).is_some();
         let item = items.iter().find(|item| item.name == name).or_else(|| items.iter().find(is_over))?;
-        Some((item.name.to_owned(), heading.as_str().into()))
+        Some((item.name.to_owned(), heading.clone().into()))
     };
     let columns: BTreeMap<_, _> = table.headings.iter().enumerate().filter_map(of_heading).collect();
     if columns.len() > 1 {
@@ -221,7 +222,8 @@ fn of_table(table: &TextTable, plan: &ColumnAssignments, file: &Path) -> Result<
     let column = |source: &ColumnSource, field: &str| match source {
         ColumnSource::Heading { text, name, .. } => {
             // the heading may hold its unit itself
-            let heading = if table.headings.contains(text) { text } else { name };
+            let heading =
+                if table.headings.iter().any(|own| own == text || of_repeats(own) == *text) { text } else { name };
             table.column(heading, field, file)
         }
         ColumnSource::Constant { value, .. } => Ok(vec![*value; rows]),

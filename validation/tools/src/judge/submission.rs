@@ -1,13 +1,17 @@
 //! Submission of an external code: a TOML file with its case, its runs, and the data of each run.
 
-use crate::case::{CaseFile, ParameterError, Tier};
+use crate::case::{CaseFile, ParameterError, Tier, leaves};
 use crate::evaluation::read_plan;
-use crate::input::{FieldError, check_name};
+use crate::input::{FieldError, Origin, check_name};
 use crate::metric::Variant;
+use crate::output::caution;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// Place of measurements that judge other codes.
+const MEASURED: &str = "to judge both codes by it, give the scene in `base` a table [[measured]] with gauge, source, file = \"mine.csv\" and limit";
 
 /// A submission as its file gives it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -23,6 +27,11 @@ pub struct Submission {
     pub tier: Tier,
     /// A case file with the parameters, beside this one: a scene of one's own.
     pub base: Option<PathBuf>,
+    /// Refused: measurements stand in the scene that is judged by.
+    overlay: Option<toml::Value>,
+    /// The parameters that this file gives itself.
+    #[serde(skip)]
+    own: toml::Table,
     /// Parameters that differ from the tier's, or from those of `base`, as in a case's file.
     #[serde(default)]
     pub with: toml::Table,
@@ -134,7 +143,23 @@ impl Submission {
         let submission: Self = read_plan(path, "bagnold judge")?;
         submission.check().map_err(|error| error.in_file(path))?;
         let fields = submission.parameters(path)?;
-        Ok(Self { path: path.to_owned(), with: fields, ..submission })
+        Ok(Self { path: path.to_owned(), own: submission.with, with: fields, ..submission })
+    }
+
+    /// The file of its parameters, the base where there is one.
+    pub fn parameter_file(&self) -> PathBuf {
+        let beside = self.path.parent().unwrap_or(Path::new(""));
+        self.base.as_ref().map_or_else(|| self.path.clone(), |base| beside.join(base))
+    }
+
+    /// An error of the parameters, in this file if the field at fault stands here and not in the base.
+    pub fn placed(&self, mut error: ParameterError) -> ParameterError {
+        if let ParameterError::Field(FieldError { field, origin, .. }) = &mut error
+            && leaves(&self.own).iter().any(|own| own.starts_with(&**field) || field.starts_with(own))
+        {
+            *origin = Some(Origin::File(self.path.clone()));
+        }
+        error
     }
 
     /// The parameters: those of `base` with those of `with` laid over them.
@@ -144,6 +169,10 @@ impl Submission {
             let rule = format!("the tier of {}, {tier}", file.path.display());
             let remedy = "name the same tier in both files";
             return Err(FieldError::new("tier", self.tier, &rule, remedy).in_file(path).into());
+        }
+        if !file.overlay.is_empty() {
+            let name = file.path.display();
+            caution(&format!("{name}: `overlay` judges runs of Bagnold only; {MEASURED}"));
         }
         Ok(file.fields)
     }
@@ -160,6 +189,9 @@ impl Submission {
     }
 
     fn check(&self) -> Result<(), FieldError> {
+        if self.overlay.is_some() {
+            return Err(FieldError::finding("overlay", "measurements in a submission", MEASURED));
+        }
         if self.code.name.trim().is_empty() || self.code.name.chars().count() > 60 {
             let rule = "a name of 1 to 60 letters";
             return Err(FieldError::new("code.name", format!("\"{}\"", self.code.name), rule, "name the code"));

@@ -2,7 +2,7 @@
 
 use super::changes::lay_over;
 use super::error::ParameterError;
-use super::{meshes, rates};
+use super::{measured_rows, meshes, rates};
 use crate::case::{OutputPlan, Tier};
 use crate::input::{DOCUMENT, FieldError, MeasuredFiles, nearest, read_text};
 use crate::output::FileError;
@@ -79,6 +79,7 @@ impl CaseFile {
         let output = OutputPlan::taken(&mut fields, path)?;
         meshes::read_beside(&mut fields, path)?;
         rates::read_beside(&mut fields, path)?;
+        measured_rows::read_beside(&mut fields, path)?;
         Ok(Self { path: path.to_owned(), case, tier, overlay, output, fields })
     }
 
@@ -91,6 +92,7 @@ impl CaseFile {
         lay_over(&mut fields, values);
         meshes::read_beside(&mut fields, path)?;
         rates::read_beside(&mut fields, path)?;
+        measured_rows::read_beside(&mut fields, path)?;
         let case = shortened(case.to_owned());
         Ok(Self { path: path.to_owned(), case, tier, overlay: Vec::new(), output: None, fields })
     }

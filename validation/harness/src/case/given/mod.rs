@@ -5,6 +5,7 @@ pub(super) mod error;
 pub(super) mod fault;
 pub(super) mod file;
 pub(super) mod friction_angle;
+pub(super) mod measured_rows;
 pub(super) mod meshes;
 pub(super) mod output;
 pub(super) mod plausible;

@@ -47,24 +47,23 @@ fn rows(text: &str, file: &Path, rate_unit: &str) -> Result<Vec<(f64, f64)>, Fie
         let defect = format!("{} columns instead of 2", columns.len());
         return Err(FieldError::finding("table", defect, "give a time and a rate in each row").in_file(file));
     };
-    let in_unit = |heading: &str, values: &[f64], own: &str| {
-        let refused =
-            |value: String, rule: &str, remedy| Err(FieldError::new(heading, value, rule, remedy).in_file(file));
-        if let Some(row) = values.iter().position(|value| !value.is_finite()) {
-            return refused(
-                format!("{} in row {}", values[row], row + 1),
-                "a finite number",
-                "correct the row, or leave it out",
-            );
-        }
-        let given = name_and_unit(heading).map_or(own, |(_, unit)| unit);
-        match if given == own { Some(1.0) } else { unit::factor(given, own) } {
-            Some(factor) => Ok(values.iter().map(|value| value * factor).collect::<Vec<f64>>()),
-            None => refused(format!("[{given}]"), &format!("a unit that converts to [{own}]"), "correct the unit"),
-        }
-    };
-    let (times, rates) = (in_unit(&headings[0], times, "s")?, in_unit(&headings[1], rates, rate_unit)?);
+    let in_unit = |place: usize, values: &[f64], own| in_unit(&headings[place], values, own, file);
+    let (times, rates) = (in_unit(0, times, "s")?, in_unit(1, rates, rate_unit)?);
     Ok(times.into_iter().zip(rates).collect())
+}
+
+/// The values of a column in a unit, in which they are taken to be where the heading has none.
+pub(super) fn in_unit(heading: &str, values: &[f64], own: &str, file: &Path) -> Result<Vec<f64>, FieldError> {
+    let refused = |value: String, rule: &str, remedy| Err(FieldError::new(heading, value, rule, remedy).in_file(file));
+    if let Some(row) = values.iter().position(|value| !value.is_finite()) {
+        let value = format!("{} in row {}", values[row], row + 1);
+        return refused(value, "a finite number", "correct the row, or leave it out");
+    }
+    let given = name_and_unit(heading).map_or(own, |(_, unit)| unit);
+    match unit::factor(given, own) {
+        Some(factor) => Ok(values.iter().map(|value| value * factor).collect()),
+        None => refused(format!("[{given}]"), &format!("a unit that converts to [{own}]"), "correct the unit"),
+    }
 }
 
 #[cfg(test)]

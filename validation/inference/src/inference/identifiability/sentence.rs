@@ -77,7 +77,10 @@ impl SentenceWriter<'_> {
                     format!("from {lower}{from} to {upper}{to}{unit}")
                 };
                 let parts: Vec<String> = intervals.iter().enumerate().map(part).collect();
-                format!("the data do not {what}: any value {} agrees with them at 95 %", parts.join(" or "))
+                format!(
+                    "the data do not {what}: any value {} fits them as well as the best, at 95 %",
+                    parts.join(" or ")
+                )
             }
             FindingKind::AtBound { parameter, upper } => format!(
                 "the best {} lies at its {} bound {}{}: values beyond may agree still better, so widen the range if \
@@ -97,7 +100,7 @@ impl SentenceWriter<'_> {
             ),
             FindingKind::WeakDirection { free, fixed, within: [back, step], .. } => format!(
                 "near the best point the data fix {} (each as a share of its range) but hardly {}: any point on the \
-                 line from {} to {} agrees with them at 95 %",
+                 line from {} to {} fits them as well as the best, at 95 %",
                 self.combination(fixed),
                 self.combination(free),
                 self.place(minimum, free, -back),

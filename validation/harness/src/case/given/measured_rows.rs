@@ -1,0 +1,100 @@
+//! Files of measurements that gauges of a case file are compared with: their rows are read with the file and are parameters like any
+//! others, so that a run is known by them, whatever becomes of their file.
+
+use super::error::ParameterError;
+use super::rates::in_unit;
+use crate::input::{
+    DOCUMENT, FieldError, TextTable, is_uncertainty, name_and_unit, of_repeats, parted, read_text, unit,
+};
+use crate::output::FileError;
+use std::collections::BTreeSet;
+use std::path::Path;
+use toml::{Table, Value};
+
+/// Adds the rows of the files that `measured` names by a path from the case file on. What has rows keeps them: the name then says where
+/// they came from.
+pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), ParameterError> {
+    let gauges = fields.get("gauges").and_then(Value::as_array).cloned().unwrap_or_default();
+    let measured = fields.get_mut("measured").and_then(Value::as_array_mut);
+    for measured in measured.into_iter().flatten().filter_map(Value::as_table_mut) {
+        let points = measured.get("points");
+        // a path in place of rows is what people try first
+        let named = points.map_or(measured.get("file"), |points| Some(points).filter(|points| points.is_str()));
+        let Some(name) = named.and_then(Value::as_str).filter(|name| !name.is_empty()).map(str::to_owned) else {
+            continue;
+        };
+        let gauge = measured.get("gauge").and_then(Value::as_str).unwrap_or_default();
+        let is_own = |other: &&Value| other.get("name").and_then(Value::as_str) == Some(gauge);
+        let kind = gauges.iter().find(is_own).and_then(|gauge| gauge.get("kind")).and_then(Value::as_str);
+        // in the plane per width
+        let units = match kind {
+            Some("probe") => ["Pa", "Pa"],
+            Some("force") => ["N/m", "N"],
+            Some("turn") => ["N m/m", "N m"],
+            Some("flux") => ["kg/m", "kg"],
+            _ => ["m", "m"],
+        };
+        let file = path.parent().unwrap_or(Path::new("")).join(&name);
+        let text = read_text(&file, DOCUMENT).map_err(|error| FileError::unreadable(&file, &error))?;
+        let row = |(time, value): (f64, f64)| Value::Array(vec![Value::Float(time), Value::Float(value)]);
+        let rows: Vec<Value> = rows(&text, &file, gauge, units)?.into_iter().map(row).collect();
+        measured.insert("points".to_owned(), rows.into());
+        measured.insert("file".to_owned(), name.into());
+    }
+    Ok(())
+}
+
+/// Times `[s]` and values of a gauge, of repeats their mean; without a unit they are taken as they are.
+fn rows(text: &str, file: &Path, gauge: &str, units: [&str; 2]) -> Result<Vec<(f64, f64)>, FieldError> {
+    let table = TextTable::parse(text, file)?;
+    let names: Vec<String> = table.headings.iter().map(|heading| of_repeats(heading)).collect();
+    let quantities: BTreeSet<&str> =
+        names.iter().skip(1).map(String::as_str).filter(|name| !is_uncertainty(parted(name).0)).collect();
+    let is_named = |name: &&&str| parted(name).0.split(": ").next() == Some(gauge);
+    let only = quantities.first().filter(|_| quantities.len() == 1);
+    let Some(heading) = only.or_else(|| quantities.iter().find(is_named)) else {
+        let defect = format!("{} quantities beside the times: {}", quantities.len(), names.join(", "));
+        let remedy = format!("write `t [s],{gauge} [m]` above rows such as `0.1,0.14`");
+        return Err(FieldError::finding("columns", defect, &remedy).in_file(file));
+    };
+    let given = name_and_unit(heading).map_or(units[0], |(_, unit)| unit);
+    let unit = units.into_iter().find(|own| unit::factor(given, own).is_some()).unwrap_or(units[0]);
+    let times = in_unit(&names[0], &table.columns[0], "s", file)?;
+    let values = in_unit(heading, &table.column(heading, "columns", file)?, unit, file)?;
+    Ok(times.into_iter().zip(values).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn repeats_in_centimetres_become_rows_of_their_mean_in_metres() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let text = "# own\nt [ms],front #1 [cm],front #2 [cm],sigma [cm]\n100,13,15,1\n200,19,21,1\n";
+        std::fs::write(folder.path().join("a.csv"), text).expect("writable");
+        let path = folder.path().join("case.toml");
+        let gauge = "[[gauges]]\nkind = \"front\"\nname = \"toe\"\n[[measured]]\ngauge = \"toe\"\n";
+        let rows = "points = [[0.1, 0.14], [0.2, 0.2]]\nfile = \"a.csv\"";
+        for given in ["file = \"a.csv\"", "points = \"a.csv\""] {
+            let mut fields: Table = toml::from_str(&format!("{gauge}{given}")).expect("TOML");
+            read_beside(&mut fields, &path).expect("read");
+            assert_eq!(fields, toml::from_str(&format!("{gauge}{rows}")).expect("TOML"), "{given}");
+        }
+        let mut own: Table = toml::from_str(&format!("{gauge}{}", rows.replace("a.csv", "gone.csv"))).expect("TOML");
+        assert!(read_beside(&mut own, &path).is_ok(), "what has rows needs no file");
+    }
+
+    #[test]
+    fn what_is_no_series_of_the_gauge_is_named() {
+        let read = |text: &str| rows(text, Path::new("a.csv"), "toe", ["m", "m"]).map_err(|error| error.to_string());
+        for (text, said) in [
+            ("t [s],toe [s]\n0,1\n", "a.csv: `toe [s]` is [s], but must be a unit that converts to [m]"),
+            ("t [s],u [m],v [m]\n0,1,2\n", "a.csv: `columns`: 2 quantities beside the times: t [s], u [m], v [m];"),
+            ("t [s]\n0\n", "a.csv: `columns`: 0 quantities beside the times: t [s]; write `t [s],toe [m]` above"),
+        ] {
+            assert!(read(text).is_err_and(|message| message.starts_with(said)), "{said}: {:?}", read(text));
+        }
+        assert_eq!(read("t,toe: front [cm],other [m]\n1,200,7\n"), Ok(vec![(1.0, 2.0)]));
+    }
+}
