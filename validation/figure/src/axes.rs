@@ -3,7 +3,7 @@
 use super::Scale;
 use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
 use super::curves::Plot;
-use super::error::FigureError;
+use super::error::Drawn;
 use super::font::width;
 use super::format::LABEL;
 use super::palette::{AXIS, BLACK, GRID};
@@ -63,12 +63,7 @@ pub(super) fn widest_label(ticks: &Ticks, em: f64) -> f64 {
 }
 
 /// Draws the grid; it lies under the data.
-pub(super) fn draw_grid(
-    canvas: &mut Canvas<'_>,
-    plot: &Plot,
-    x_ticks: &Ticks,
-    y_ticks: &Ticks,
-) -> Result<(), FigureError> {
+pub(super) fn draw_grid(canvas: &mut Canvas<'_>, plot: &Plot, x_ticks: &Ticks, y_ticks: &Ticks) -> Drawn {
     let window = &plot.window;
     let ink = Ink::solid(GRID, 1.5);
     for x in pixels(&plot.x, x_ticks.major.iter().map(|tick| tick.value)) {
@@ -87,7 +82,7 @@ pub(super) fn draw_axes(
     (x_ticks, y_ticks): (&Ticks, &Ticks),
     (x_label, y_label): (&str, &str),
     sizes: Sizes,
-) -> Result<(), FigureError> {
+) -> Drawn {
     let window = &plot.window;
     let ink = Ink::solid(AXIS, FRAME);
     canvas.frame(window, ink)?;
@@ -120,7 +115,7 @@ fn draw_labels(
     (x_ticks, y_ticks): (&Ticks, &Ticks),
     (x_label, y_label): (&str, &str),
     sizes: Sizes,
-) -> Result<(), FigureError> {
+) -> Drawn {
     let x_label_top = window.bottom + TICK + TICK_GAP + 1.25 * sizes.tick;
     let centre = 0.5 * (window.left + window.right);
     let along = |label: &str, length: f64| {

@@ -1,6 +1,6 @@
 //! A drawing surface in fractional pixels over plotters' SVG backend.
 
-use super::error::FigureError;
+use super::error::{Drawn, FigureError};
 use super::font::{FAMILY, FAMILY_WITH_FALLBACK, LINE_HEIGHT, plain_width, width};
 use super::format::FigureFormat;
 use super::script::{Run, SMALLER, runs};
@@ -105,48 +105,48 @@ impl<'a> Canvas<'a> {
     }
 
     /// Finishes the drawing.
-    pub(super) fn finish(mut self) -> Result<(), FigureError> {
+    pub(super) fn finish(mut self) -> Drawn {
         self.backend.present().map_err(draw_error)
     }
 
-    pub(super) fn line(&mut self, from: Point, to: Point, ink: Ink) -> Result<(), FigureError> {
+    pub(super) fn line(&mut self, from: Point, to: Point, ink: Ink) -> Drawn {
         self.backend.draw_line(units(from), units(to), &ink.style()).map_err(draw_error)
     }
 
-    pub(super) fn polyline(&mut self, points: &[Point], ink: Ink) -> Result<(), FigureError> {
+    pub(super) fn polyline(&mut self, points: &[Point], ink: Ink) -> Drawn {
         if points.len() < 2 {
             return Ok(());
         }
         self.backend.draw_path(points.iter().map(|&point| units(point)), &ink.style()).map_err(draw_error)
     }
 
-    pub(super) fn polygon(&mut self, points: &[Point], ink: Ink) -> Result<(), FigureError> {
+    pub(super) fn polygon(&mut self, points: &[Point], ink: Ink) -> Drawn {
         if points.len() < 3 {
             return Ok(());
         }
         self.backend.fill_polygon(points.iter().map(|&point| units(point)), &ink.style()).map_err(draw_error)
     }
 
-    pub(super) fn fill_rectangle(&mut self, rectangle: &Rectangle, ink: Ink) -> Result<(), FigureError> {
+    pub(super) fn fill_rectangle(&mut self, rectangle: &Rectangle, ink: Ink) -> Drawn {
         let upper_left = units((rectangle.left, rectangle.top));
         let lower_right = units((rectangle.right, rectangle.bottom));
         self.backend.draw_rect(upper_left, lower_right, &ink.style(), true).map_err(draw_error)
     }
 
-    pub(super) fn frame(&mut self, rectangle: &Rectangle, ink: Ink) -> Result<(), FigureError> {
+    pub(super) fn frame(&mut self, rectangle: &Rectangle, ink: Ink) -> Drawn {
         let Rectangle { left, top, right, bottom } = *rectangle;
         let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
         self.polyline(&corners, ink)
     }
 
     /// A filled circle.
-    pub(super) fn disc(&mut self, centre: Point, radius: f64, ink: Ink) -> Result<(), FigureError> {
+    pub(super) fn disc(&mut self, centre: Point, radius: f64, ink: Ink) -> Drawn {
         let radius = (radius * UNITS_PER_PIXEL).round().clamp(1.0, FARTHEST) as u32;
         self.backend.draw_circle(units(centre), radius, &ink.style(), true).map_err(draw_error)
     }
 
     /// A text with its indices and exponents, each of which is an element of its own.
-    pub(super) fn text(&mut self, text: &str, at: Point, spec: TextSpec) -> Result<(), FigureError> {
+    pub(super) fn text(&mut self, text: &str, at: Point, spec: TextSpec) -> Drawn {
         let runs = runs(text);
         if let [whole] = runs[..]
             && whole.rise == 0.0
@@ -181,7 +181,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// Letters of one size on one line.
-    fn run(&mut self, text: &str, at: Point, spec: TextSpec) -> Result<(), FigureError> {
+    fn run(&mut self, text: &str, at: Point, spec: TextSpec) -> Drawn {
         let size = spec.em * LINE_HEIGHT * UNITS_PER_PIXEL;
         let font = FontDesc::new(FontFamily::Name(FAMILY), size, spec.weight);
         let font = match spec.direction {

@@ -2,7 +2,7 @@
 
 use super::canvas::{Canvas, Ink, Point, Rectangle};
 use super::clip::{clip_chain, clip_polygon, dashes, thin};
-use super::error::FigureError;
+use super::error::Drawn;
 use super::palette::{BLACK, GREY, colour, shape};
 use super::range::Mapping;
 use super::{Band, Mark, Panel, Series};
@@ -35,7 +35,7 @@ impl Plot {
 }
 
 /// Draws bands, then lines, then references, then points: what is judged stays visible under what judges it.
-pub(super) fn draw_bands(canvas: &mut Canvas<'_>, plot: &Plot, bands: &[Band]) -> Result<(), FigureError> {
+pub(super) fn draw_bands(canvas: &mut Canvas<'_>, plot: &Plot, bands: &[Band]) -> Drawn {
     for band in bands {
         for outline in band_outlines(plot, band) {
             canvas.polygon(&outline, Ink { colour: GREY, opacity: BAND_OPACITY, width: 0.0 })?;
@@ -45,7 +45,7 @@ pub(super) fn draw_bands(canvas: &mut Canvas<'_>, plot: &Plot, bands: &[Band]) -
 }
 
 /// Draws every series of a panel.
-pub(super) fn draw_series(canvas: &mut Canvas<'_>, plot: &Plot, panel: &Panel) -> Result<(), FigureError> {
+pub(super) fn draw_series(canvas: &mut Canvas<'_>, plot: &Plot, panel: &Panel) -> Drawn {
     let of = |wanted: &'static [Mark]| panel.series.iter().filter(move |series| wanted.contains(&series.mark));
     for series in of(&[Mark::Line, Mark::LinePoints]) {
         for piece in clip_chain(&plot.chain(&series.points), &plot.window) {
@@ -92,7 +92,7 @@ pub(super) fn band_outlines(plot: &Plot, band: &Band) -> Vec<Vec<Point>> {
     outlines
 }
 
-fn draw_points(canvas: &mut Canvas<'_>, plot: &Plot, series: &Series) -> Result<(), FigureError> {
+fn draw_points(canvas: &mut Canvas<'_>, plot: &Plot, series: &Series) -> Drawn {
     let radius = marker_radius(series.points.len());
     let ink = colour(series.colour);
     let mut last: Option<Point> = None;
@@ -124,13 +124,7 @@ fn marker_radius(points: usize) -> f64 {
     }
 }
 
-fn draw_error_bar(
-    canvas: &mut Canvas<'_>,
-    plot: &Plot,
-    (x, y): (f64, f64),
-    half: f64,
-    colour: RGBColor,
-) -> Result<(), FigureError> {
+fn draw_error_bar(canvas: &mut Canvas<'_>, plot: &Plot, (x, y): (f64, f64), half: f64, colour: RGBColor) -> Drawn {
     let ink = Ink::solid(colour, 2.5);
     let Some(across) = plot.x.pixel(x) else { return Ok(()) };
     let window = &plot.window;
@@ -148,7 +142,7 @@ fn draw_error_bar(
 }
 
 /// Draws one marker of a series.
-fn draw_marker(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, series: &Series) -> Result<(), FigureError> {
+fn draw_marker(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, series: &Series) -> Drawn {
     let corners = shape(series.colour);
     let scaled = |radius: f64| corners.iter().map(move |&(dx, dy)| (x + radius * dx, y + radius * dy));
     if series.mark == Mark::OpenPoints && !corners.is_empty() {
@@ -190,7 +184,7 @@ pub(super) fn draw_sample(
     panel: &Panel,
     series: &Series,
     (left, right, y): (f64, f64, f64),
-) -> Result<(), FigureError> {
+) -> Drawn {
     let ink = colour(series.colour);
     match series.mark {
         Mark::Reference => {
@@ -208,6 +202,6 @@ pub(super) fn draw_sample(
 }
 
 /// Draws the sample of a band in a legend.
-pub(super) fn draw_band_sample(canvas: &mut Canvas<'_>, place: &Rectangle) -> Result<(), FigureError> {
+pub(super) fn draw_band_sample(canvas: &mut Canvas<'_>, place: &Rectangle) -> Drawn {
     canvas.fill_rectangle(place, Ink { colour: GREY, opacity: BAND_OPACITY, width: 0.0 })
 }

@@ -1,7 +1,7 @@
 //! The figures' own SVG → areas and lines. The drawing of [`super::canvas`] holds eight kinds of elements with a few attributes
 //! each, which are read here one by one; an element or attribute of another kind is an error and not a gap in the picture.
 
-use super::error::FigureError;
+use super::error::{Drawn, FigureError};
 use super::glyphs;
 use plotters::style::FontStyle;
 use roxmltree::{Document, Node};
@@ -46,11 +46,11 @@ pub(super) fn parse(svg: &str) -> Result<Document<'_>, FigureError> {
 }
 
 /// Draws every element, in order.
-pub(super) fn draw(svg: &Document<'_>, surface: &mut impl Surface) -> Result<(), FigureError> {
+pub(super) fn draw(svg: &Document<'_>, surface: &mut impl Surface) -> Drawn {
     svg.root_element().children().filter(Node::is_element).try_for_each(|node| element(node, surface))
 }
 
-fn element(node: Node<'_, '_>, surface: &mut impl Surface) -> Result<(), FigureError> {
+fn element(node: Node<'_, '_>, surface: &mut impl Surface) -> Drawn {
     match node.tag_name().name() {
         "rect" => {
             let [x, y, width, height] = ["x", "y", "width", "height"].map(|name| number(node, name));
@@ -94,7 +94,7 @@ fn element(node: Node<'_, '_>, surface: &mut impl Surface) -> Result<(), FigureE
     Ok(())
 }
 
-fn text(node: Node<'_, '_>, surface: &mut impl Surface) -> Result<(), FigureError> {
+fn text(node: Node<'_, '_>, surface: &mut impl Surface) -> Drawn {
     let (x, y, size) = (number(node, "x")?, number(node, "y")?, number(node, "font-size")?);
     let shift = node.attribute("dy").map_or(Some(0.0), |shift| shift.strip_suffix("em")?.parse::<f32>().ok());
     let shift = shift.ok_or_else(|| FigureError::Svg("a text shifted by other than `em`".into()))? * size;

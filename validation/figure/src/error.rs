@@ -40,3 +40,6 @@ pub enum FigureError {
         source: std::io::Error,
     },
 }
+
+/// What drawing an element leads to.
+pub(super) type Drawn = Result<(), FigureError>;

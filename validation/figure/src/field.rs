@@ -3,7 +3,7 @@
 use super::axes::{Sizes, TICK_GAP, text, uncrowded, widest_label};
 use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
 use super::curves::Plot;
-use super::error::FigureError;
+use super::error::Drawn;
 use super::font::width;
 use super::palette::{AXIS, BLACK, ColourMap, FIRST, GREY, SECOND};
 use super::range::{Mapping, Range};
@@ -57,12 +57,7 @@ impl ColourScale {
     }
 
     /// Draws the bar right of a plot.
-    pub(super) fn draw_beside(
-        &self,
-        canvas: &mut Canvas<'_>,
-        window: &Rectangle,
-        sizes: Sizes,
-    ) -> Result<(), FigureError> {
+    pub(super) fn draw_beside(&self, canvas: &mut Canvas<'_>, window: &Rectangle, sizes: Sizes) -> Drawn {
         let left = window.right + BAR_GAP;
         let bar = Rectangle { left, right: left + BAR, ..*window };
         self.draw_colours(canvas, |share| Rectangle { bottom: bar.bottom - share * bar.height(), ..bar })?;
@@ -87,7 +82,7 @@ impl ColourScale {
         canvas: &mut Canvas<'_>,
         (left, right, bottom): (f64, f64, f64),
         sizes: Sizes,
-    ) -> Result<(), FigureError> {
+    ) -> Drawn {
         let left = left + width(&self.label, sizes.label, FontStyle::Normal) + sizes.label;
         let bar = Rectangle { left, top: bottom - BAR, right: right.min(left + LONGEST), bottom };
         self.draw_colours(canvas, |share| Rectangle { left: bar.left + share * bar.width(), ..bar })?;
@@ -104,7 +99,7 @@ impl ColourScale {
     }
 
     /// Draws a bar that `rest` cuts to what is beyond a share of its length.
-    fn draw_colours(&self, canvas: &mut Canvas<'_>, rest: impl Fn(f64) -> Rectangle) -> Result<(), FigureError> {
+    fn draw_colours(&self, canvas: &mut Canvas<'_>, rest: impl Fn(f64) -> Rectangle) -> Drawn {
         for step in 0..COLOUR_STEPS {
             // Each strip reaches to the end, so that no seam shows between strips.
             let share = |part: f64| (f64::from(step) + part) / f64::from(COLOUR_STEPS);
@@ -117,12 +112,7 @@ impl ColourScale {
 const COLOUR_STEPS: u32 = 128;
 
 /// Draws every particle at its true size, those without a value in grey.
-pub(super) fn draw_field(
-    canvas: &mut Canvas<'_>,
-    plot: &Plot,
-    field: &Field,
-    colours: &ColourScale,
-) -> Result<(), FigureError> {
+pub(super) fn draw_field(canvas: &mut Canvas<'_>, plot: &Plot, field: &Field, colours: &ColourScale) -> Drawn {
     let scale = plot.window.width() / (plot.x.range.upper - plot.x.range.lower);
     let drawn = 0.5 * diameter(field) * scale;
     // Gaps between discs of a few pixels only make the colours pale: small discs grow until their squares are full.

@@ -3,7 +3,7 @@
 use super::axes::text;
 use super::canvas::{Canvas, Ink, Point, Rectangle};
 use super::curves::{Plot, band_outlines, draw_band_sample, draw_sample};
-use super::error::FigureError;
+use super::error::Drawn;
 use super::font::width;
 use super::palette::{BLACK, GRID};
 use super::{Mark, Panel};
@@ -138,12 +138,7 @@ impl Legend {
     }
 
     /// Draws the legend in a box of its own.
-    pub(super) fn draw_box(
-        &self,
-        canvas: &mut Canvas<'_>,
-        panel: &Panel,
-        (left, top): Point,
-    ) -> Result<(), FigureError> {
+    pub(super) fn draw_box(&self, canvas: &mut Canvas<'_>, panel: &Panel, (left, top): Point) -> Drawn {
         let place = Rectangle { left, top, right: left + self.box_width(), bottom: top + self.box_height() };
         canvas.fill_rectangle(&place, Ink::solid(WHITE, 0.0))?;
         canvas.frame(&place, Ink::solid(GRID, 2.0))?;
@@ -160,7 +155,7 @@ impl Legend {
         canvas: &mut Canvas<'_>,
         panel: &Panel,
         (left, right, top): (f64, f64, f64),
-    ) -> Result<(), FigureError> {
+    ) -> Drawn {
         let rows = self.rows_below(right - left);
         let longest = rows.iter().map(|(_, length)| *length).fold(0.0, f64::max);
         // rows that are longer than the plot reach under the numbers at its left
@@ -180,7 +175,7 @@ impl Legend {
         panel: &Panel,
         (label, item): &(String, LegendEntry),
         (left, y): Point,
-    ) -> Result<(), FigureError> {
+    ) -> Drawn {
         let right = left + self.sample();
         match *item {
             LegendEntry::Band => {

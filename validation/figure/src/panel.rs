@@ -3,7 +3,7 @@
 use super::axes::{Sizes, TICK, TICK_GAP, draw_axes, draw_grid, text, uncrowded, widest_label};
 use super::canvas::{Canvas, Rectangle, TextSpec};
 use super::curves::{Plot, draw_bands, draw_series};
-use super::error::FigureError;
+use super::error::Drawn;
 use super::field::{ColourScale, draw_field, extent};
 use super::font::width;
 use super::legend::{Legend, LegendPosition};
@@ -160,7 +160,7 @@ impl<'p> ScaledPanel<'p> {
     }
 
     /// Draws the panel with its plot in `room`.
-    pub(super) fn draw(&self, canvas: &mut Canvas<'_>, room: &Rectangle) -> Result<(), FigureError> {
+    pub(super) fn draw(&self, canvas: &mut Canvas<'_>, room: &Rectangle) -> Drawn {
         let plot = self.plot(self.fitted(room));
         let window = plot.window;
         let sizes = self.sizes;
@@ -189,7 +189,7 @@ impl<'p> ScaledPanel<'p> {
         self.draw_legend(canvas, &plot)
     }
 
-    fn draw_legend(&self, canvas: &mut Canvas<'_>, plot: &Plot) -> Result<(), FigureError> {
+    fn draw_legend(&self, canvas: &mut Canvas<'_>, plot: &Plot) -> Drawn {
         if self.legend.is_empty() {
             return Ok(());
         }
