@@ -26,9 +26,8 @@ use crate::lanes::Lanes;
 use crate::lanes::algebra::{accumulate, contraction, dot, matrix_product, scaled, splat_vector, sum_of, zero_tensor};
 use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::vector::{Tensor, Vector, double_contraction};
-use crate::weakly_compressible::model::{GradientUse, Model};
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::continuity::compression;
+use crate::weakly_compressible::{GradientUse, Model, Particles};
 use serde::{Deserialize, Serialize};
 
 /// Energies `[J]`, in two dimensions `[J/m]`, since the start of a run.

@@ -2,11 +2,9 @@
 
 use crate::run::Divergence;
 use crate::weakly_compressible::divergence::Quantity;
-use crate::weakly_compressible::model::GradientUse;
-use crate::weakly_compressible::numerics::{MomentumOperator, ViscousStep};
 use crate::weakly_compressible::passes::{geometry, momentum, pairwise};
-use crate::weakly_compressible::state::State;
 use crate::weakly_compressible::viscous_solve::{MOST_ITERATIONS, NotConverged, ViscousSolve};
+use crate::weakly_compressible::{GradientUse, MomentumOperator, State, ViscousStep};
 
 impl<const D: usize> State<D> {
     /// Accelerations at the present positions and velocities.

@@ -6,10 +6,8 @@ use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::enclosure::boundary_state::BoundaryState;
 use crate::weakly_compressible::enclosure::facet_wall::BackingParticle;
 use crate::weakly_compressible::memory;
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::wall_fields::WallFields;
-use crate::weakly_compressible::walls::Surface;
+use crate::weakly_compressible::{Particles, Scene, Surface};
 
 impl<const D: usize> Particles<D> {
     /// Arrays for the flow and the walls of a scene, with the dummy particles of each facet wall.

@@ -28,4 +28,16 @@ pub(crate) mod viscous_solve;
 pub(crate) mod wall_fields;
 pub mod walls;
 
+pub(crate) use energy::EnergyLedger;
+pub(crate) use model::{GradientUse, Model, PairDiffusion};
+pub use neighbours::VerletList;
+pub(crate) use neighbours::{BLOCK, NeighbourGroup};
+pub use numerics::{MomentumOperator, Numerics, ViscositySwitch, ViscousStep};
+pub use particles::Particles;
+pub(crate) use passes::PairData;
 pub use saved::SavedSimulation;
+pub use scene::Scene;
+pub use simulation::Simulation;
+pub use snapshot::Snapshot;
+pub(crate) use state::State;
+pub use walls::{Images, SideWalls, Surface, Wall, WallTreatment};

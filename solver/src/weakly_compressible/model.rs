@@ -9,11 +9,10 @@ use crate::material::rheology::field::{FieldBoundary, FieldDiffusion, FieldStep,
 use crate::material::rheology::{ElasticModuli, Rheology};
 use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
 use crate::vector::Vector;
-use crate::weakly_compressible::neighbours::VerletList;
-use crate::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscositySwitch};
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 use crate::weakly_compressible::terms::stress_diffusion::steepness;
+use crate::weakly_compressible::{MomentumOperator, Numerics, VerletList, ViscositySwitch};
 
 /// Properties of a run that do not change from step to step. Only the neighbour list does: a search fills it anew.
 #[derive(Debug)]

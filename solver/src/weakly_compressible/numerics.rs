@@ -3,7 +3,7 @@
 use crate::kernel::KernelShape;
 use crate::material::rheology::Rheology;
 use crate::parameter::{ParameterProblem, between, up_to};
-use crate::weakly_compressible::walls::{Surface, WallTreatment};
+use crate::weakly_compressible::{Surface, WallTreatment};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -6,9 +6,9 @@ use crate::material::rheology::Rheology;
 use crate::material::rheology::field::{FieldStep, Memory};
 use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::Images;
 use crate::weakly_compressible::memory;
 use crate::weakly_compressible::wall_fields::{WallFields, resize};
-use crate::weakly_compressible::walls::Images;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

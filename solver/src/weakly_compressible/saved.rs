@@ -7,13 +7,8 @@
 use crate::run::{ContinueError, ForeignState};
 use crate::vector::Vector;
 use crate::weakly_compressible::enclosure::boundary_state::Books;
-use crate::weakly_compressible::energy::EnergyLedger;
-use crate::weakly_compressible::neighbours::VerletList;
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::scene::Scene;
-use crate::weakly_compressible::simulation::{Compiled, Simulation};
-use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::walls::{Images, Wall};
+use crate::weakly_compressible::simulation::Compiled;
+use crate::weakly_compressible::{EnergyLedger, Images, Particles, Scene, Simulation, State, VerletList, Wall};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 

@@ -9,8 +9,8 @@ use crate::parameter::{ParameterProblem, range_problem};
 use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::enclosure::BoundarySet;
-use crate::weakly_compressible::numerics::Numerics;
-use crate::weakly_compressible::walls::{SideWalls, Wall, wall::WallParticle};
+use crate::weakly_compressible::walls::wall::WallParticle;
+use crate::weakly_compressible::{Numerics, SideWalls, Wall};
 
 /// The flow particles at the start; all arrays have the shape `[particles]`.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -3,10 +3,8 @@
 use crate::domain::Domain;
 use crate::material::rheology::field::Memory;
 use crate::parallel::prelude::*;
-use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::CellGrid;
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::walls::Images;
+use crate::weakly_compressible::{Images, Model, Particles};
 
 /// The domain, the grids and the buffers of the sort, reused from search to search.
 #[derive(Debug)]

@@ -15,14 +15,10 @@ use crate::weakly_compressible::enclosure::inlet::{Inflow, Inlet};
 use crate::weakly_compressible::enclosure::pose::Pose;
 use crate::weakly_compressible::enclosure::{backing, mesh_backing};
 use crate::weakly_compressible::energy::EnergyAccount;
-use crate::weakly_compressible::model::GradientUse;
-use crate::weakly_compressible::neighbours::{MOST_PARTICLES, VerletList};
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::scene::Scene;
-use crate::weakly_compressible::snapshot::Snapshot;
-use crate::weakly_compressible::state::State;
+use crate::weakly_compressible::neighbours::MOST_PARTICLES;
 use crate::weakly_compressible::time_step::TimeStepBounds;
 use crate::weakly_compressible::walls::wall;
+use crate::weakly_compressible::{GradientUse, Particles, Scene, Snapshot, State, VerletList};
 use std::ops::ControlFlow;
 
 /// A running simulation in D = 2 or 3 dimensions.

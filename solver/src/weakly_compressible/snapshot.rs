@@ -3,8 +3,7 @@
 use crate::material::rheology::field::Memory;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::energy::EnergyAccount;
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::{Model, Particles};
 use serde::{Deserialize, Serialize};
 
 /// Plain state; every array has the shape `[flow particles]`, ordered by identity.

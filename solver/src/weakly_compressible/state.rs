@@ -8,18 +8,14 @@ use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
 use crate::weakly_compressible::enclosure::boundary_state::BoundaryState;
 use crate::weakly_compressible::enclosure::facet_wall::BackingParticle;
-use crate::weakly_compressible::energy::EnergyLedger;
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::{LARGEST_ROW, VerletList};
-use crate::weakly_compressible::numerics::Numerics;
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::passes::PairData;
-use crate::weakly_compressible::scene::Scene;
+use crate::weakly_compressible::neighbours::LARGEST_ROW;
 use crate::weakly_compressible::search::Search;
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 use crate::weakly_compressible::time_step::TimeStepBounds;
 use crate::weakly_compressible::viscous_solve::ViscousSystem;
-use crate::weakly_compressible::walls::{Images, SideWalls, Wall};
+use crate::weakly_compressible::{
+    EnergyLedger, Images, Model, Numerics, PairData, Particles, Scene, SideWalls, VerletList, Wall,
+};
 
 /// Particles, walls and neighbours, time, and what the next step's length follows from.
 #[derive(Debug)]

@@ -5,10 +5,8 @@ use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{DENSITY_RANGE, Quantity};
 use crate::weakly_compressible::memory;
-use crate::weakly_compressible::model::GradientUse;
-use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::passes::{continuity, geometry, side_walls, wall_stress, wall_velocity};
-use crate::weakly_compressible::state::State;
+use crate::weakly_compressible::{BLOCK, GradientUse, State};
 
 impl<const D: usize> State<D> {
     /// Symplectic Euler: forces at (x, v)ⁿ → vⁿ⁺¹ → ρⁿ⁺¹, sⁿ⁺¹ → xⁿ⁺¹.

@@ -1,6 +1,6 @@
 //! The explicit time step (29): acoustic, advective and viscous bounds.
 
-use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
+use crate::weakly_compressible::{Numerics, ViscousStep};
 
 /// The three bounds of a step and which of them binds.
 #[derive(Debug, Clone, Copy, PartialEq)]

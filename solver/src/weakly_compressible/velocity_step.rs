@@ -8,12 +8,10 @@ use crate::parallel::prelude::*;
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{LARGEST_MACH_NUMBER, Quantity};
-use crate::weakly_compressible::energy::{EnergyLedger, VelocityStep, VelocityWork};
-use crate::weakly_compressible::neighbours::BLOCK;
+use crate::weakly_compressible::energy::{VelocityStep, VelocityWork};
 use crate::weakly_compressible::numerics::Contact;
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::walls::{Wall, contact};
+use crate::weakly_compressible::walls::contact;
+use crate::weakly_compressible::{BLOCK, EnergyLedger, Particles, State, Wall};
 
 impl<const D: usize> State<D> {
     /// New velocities, with what walls stop and what each force has worked.

@@ -2,7 +2,7 @@
 
 use crate::lanes::{LANES, LaneIndices, Lanes, gather};
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::walls::Images;
+use crate::weakly_compressible::Images;
 use serde::{Deserialize, Serialize};
 
 /// Arrays of the wall particles, then of all images (zero for those of the flow) and the sentinel, shape

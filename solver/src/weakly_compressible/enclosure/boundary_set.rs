@@ -6,7 +6,7 @@ use super::wall_turn::WallTurn;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::Vector;
-use crate::weakly_compressible::numerics::Numerics;
+use crate::weakly_compressible::Numerics;
 use serde::{Deserialize, Serialize};
 
 /// Facet walls, open sides and inlets of a scene; by default there are none.

@@ -6,14 +6,10 @@ use super::facet_contact::{self, Passed, Touch};
 use crate::domain::Domain;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
-use crate::weakly_compressible::energy::{EnergyLedger, energy_of};
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::BLOCK;
+use crate::weakly_compressible::energy::energy_of;
 use crate::weakly_compressible::numerics::Contact;
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::passes::shell_impulse::{self, Booking, NO_OWNER, WallImpulse};
-use crate::weakly_compressible::walls::Images;
+use crate::weakly_compressible::{BLOCK, EnergyLedger, Images, Model, PairData, Particles};
 
 impl<const D: usize> BoundaryState<D> {
     /// Removes the particles that have left the domain by an open side, at a time `[s]`.

@@ -11,12 +11,9 @@ use crate::domain::Domain;
 use crate::lanes::LANES;
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::energy::{EnergyLedger, PushCause, PushStep};
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::BLOCK;
-use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::energy::{PushCause, PushStep};
 use crate::weakly_compressible::passes::shell_impulse::WallImpulse;
-use crate::weakly_compressible::walls::Surface;
+use crate::weakly_compressible::{BLOCK, EnergyLedger, Model, Particles, Surface};
 
 /// Sweeps over the facets that are touched; a corner of two or three walls seldom needs more, and one that does
 /// brings to a stop.

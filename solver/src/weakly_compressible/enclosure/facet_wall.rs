@@ -6,7 +6,7 @@ use super::time_table::{is_sound, slope_at, value_at};
 use super::wall_load::WallLoad;
 use super::wall_turn::WallTurn;
 use crate::vector::Vector;
-use crate::weakly_compressible::walls::Surface;
+use crate::weakly_compressible::Surface;
 
 /// Side of a polyline on which the flow is, seen along its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

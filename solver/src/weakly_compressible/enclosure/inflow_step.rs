@@ -6,9 +6,8 @@ use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
 use crate::weakly_compressible::energy::energy_of;
 use crate::weakly_compressible::memory;
-use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::MOST_PARTICLES;
-use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::{Model, Particles};
 use std::ops::Range;
 
 impl<const D: usize> BoundaryState<D> {

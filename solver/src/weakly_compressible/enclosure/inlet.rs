@@ -15,7 +15,7 @@ use super::facet_wall::{BackingParticle, FacetWall, Motion};
 use super::feed_rate::FeedRate;
 use crate::parameter::ParameterProblem;
 use crate::vector::Vector;
-use crate::weakly_compressible::walls::Surface;
+use crate::weakly_compressible::Surface;
 use serde::{Deserialize, Serialize};
 
 /// Largest speed of a row over that of sound `[-]`: the dynamic pressure is then 2 % of the bulk modulus.

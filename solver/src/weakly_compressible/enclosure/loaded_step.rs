@@ -2,8 +2,7 @@
 
 use super::boundary_state::BoundaryState;
 use crate::vector::Vector;
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::walls::Images;
+use crate::weakly_compressible::{Images, Particles};
 
 impl<const D: usize> BoundaryState<D> {
     /// Steps the velocities of walls under loads from a time on `[s]`; their particles follow with the positions of the flow.

@@ -3,7 +3,7 @@
 use super::facet::Facet;
 use super::facet_wall::{FacetWall, Motion};
 use crate::vector::Vector;
-use crate::weakly_compressible::walls::Surface;
+use crate::weakly_compressible::Surface;
 
 /// Sine of the angle between two normals up to which triangles that share an edge are one flat part `[-]`: what corners
 /// of single precision leave of a plane.

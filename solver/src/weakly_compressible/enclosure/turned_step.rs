@@ -2,7 +2,7 @@
 
 use super::boundary_state::BoundaryState;
 use crate::domain::Domain;
-use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::Particles;
 
 impl<const D: usize> BoundaryState<D> {
     /// Rate of a facet wall right after a time `[rad/s]`.

@@ -15,10 +15,8 @@ use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, load,
 use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real};
 use crate::parallel::prelude::*;
 use crate::weakly_compressible::energy::StressWork;
-use crate::weakly_compressible::model::{GradientUse, Model, PairDiffusion};
-use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{continuity, density_coupling};
+use crate::weakly_compressible::{BLOCK, GradientUse, Model, NeighbourGroup, PairDiffusion, Particles};
 
 /// Fields that are read of a particle, whatever is exchanged.
 struct Partner<V, const D: usize> {

@@ -4,9 +4,7 @@ use super::precision::Precision;
 use super::records::LaneRecord;
 use crate::lanes::algebra::zero_tensor;
 use crate::lanes::{LaneIndices, Lanes, Real};
-use crate::weakly_compressible::model::{Model, PairDiffusion};
-use crate::weakly_compressible::neighbours::NeighbourGroup;
-use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::{Model, NeighbourGroup, PairDiffusion, Particles};
 
 /// Eight numbers of a precision.
 pub(super) type Numbers<P, V> = <P as Precision>::Lanes<V>;

@@ -8,8 +8,8 @@ use super::records::{self, LaneRecord};
 use super::stress_ratio::StressRatio;
 use crate::lanes::{LaneIndices, Lanes, Real, gather, gather_vectors};
 use crate::material::rheology::field::{FieldBoundary, FieldStep};
-use crate::weakly_compressible::model::{Model, PairDiffusion};
 use crate::weakly_compressible::terms::field_diffusion;
+use crate::weakly_compressible::{Model, PairDiffusion};
 
 /// Sums of the diffusion of a field, and of the stress ratio, around eight particles.
 pub(super) struct FieldDiffusion<V: Lanes, P: Precision, const D: usize> {

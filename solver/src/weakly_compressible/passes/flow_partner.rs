@@ -4,9 +4,8 @@ use super::layout::Momentum;
 use super::precision::Precision;
 use super::records::{self, LaneRecord};
 use crate::lanes::Real;
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
+use crate::weakly_compressible::{Model, ViscositySwitch};
 
 /// Neighbour data of a flow particle.
 pub(super) struct FlowPartner<V, const D: usize> {

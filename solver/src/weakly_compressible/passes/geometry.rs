@@ -13,11 +13,9 @@ use crate::lanes::algebra::{
 use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real, store_symmetric};
 use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector, shear_rate};
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::kernel_correction::{corrections, corrections_and_eigenvalue};
 use crate::weakly_compressible::terms::{common_motion, field_diffusion};
+use crate::weakly_compressible::{BLOCK, Model, NeighbourGroup, Particles};
 use std::ops::Range;
 
 struct Output<'a, const D: usize> {

@@ -2,7 +2,7 @@
 
 use super::precision::Precision;
 use super::records::deviator_values;
-use crate::weakly_compressible::model::PairDiffusion;
+use crate::weakly_compressible::PairDiffusion;
 use std::marker::PhantomData;
 
 /// Values of the geometry pass: position, volume, pressure.

@@ -13,12 +13,9 @@ use crate::lanes::algebra::{accumulate, difference, dot, load, store_vector, zer
 use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real};
 use crate::parallel::prelude::*;
 use crate::vector::{Vector, shear_rate};
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
-use crate::weakly_compressible::numerics::ViscositySwitch;
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
+use crate::weakly_compressible::{BLOCK, Model, NeighbourGroup, Particles, ViscositySwitch};
 use std::ops::Range;
 
 /// Records of flow and walls in the layout of [`Momentum`].

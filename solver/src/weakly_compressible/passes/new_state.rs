@@ -10,12 +10,10 @@ use crate::lanes::{LANES, Lanes, Real};
 use crate::material::rheology::field::{FieldStep, Memory, StateReturn};
 use crate::vector::{Tensor, shear_rate};
 use crate::weakly_compressible::divergence::DENSITY_RANGE;
-use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, DilationStep, EnergyLedger, StressWork};
+use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, DilationStep, StressWork};
 use crate::weakly_compressible::memory;
-use crate::weakly_compressible::model::{GradientUse, Model};
-use crate::weakly_compressible::numerics::ViscositySwitch;
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, continuity};
+use crate::weakly_compressible::{EnergyLedger, GradientUse, Model, Particles, ViscositySwitch};
 use std::ops::Range;
 
 /// Extremes found by the pass over all blocks.

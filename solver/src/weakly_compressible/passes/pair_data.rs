@@ -3,8 +3,7 @@
 use super::records::Records;
 use crate::lanes::LANES;
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::energy::EnergyLedger;
-use crate::weakly_compressible::neighbours::BLOCK;
+use crate::weakly_compressible::{BLOCK, EnergyLedger};
 
 /// Weights of all pairs, packed copies of what a loop reads of a neighbour, and buffers.
 #[derive(Debug, Default)]

@@ -9,13 +9,10 @@ use crate::lanes::algebra::{
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, gather, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
-use crate::weakly_compressible::numerics::{MomentumOperator, ViscositySwitch};
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{
     artificial_viscosity, pair_distance, pair_viscosity, pressure_force, wall_slip,
 };
+use crate::weakly_compressible::{BLOCK, Model, MomentumOperator, NeighbourGroup, Particles, ViscositySwitch};
 
 /// Values of a record: the layout of [`Partner`].
 const fn values(dimension: usize) -> usize {

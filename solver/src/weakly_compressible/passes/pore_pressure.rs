@@ -9,9 +9,8 @@ use crate::lanes::algebra::zero_tensor;
 use crate::lanes::{LaneIndices, Lanes, Real};
 use crate::material::pore_liquid::LARGEST_DIFFUSION;
 use crate::material::rheology::field::{FieldStep, Memory};
-use crate::weakly_compressible::model::{Model, PairDiffusion};
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::field_diffusion;
+use crate::weakly_compressible::{Model, PairDiffusion, Particles};
 
 /// Sums of the diffusion of the pore pressure around eight particles, by the conductivities of both.
 pub(super) struct PorePressure<V: Lanes, P: Precision> {

@@ -12,9 +12,7 @@ use crate::lanes::algebra::{load, scaled, store_vector};
 use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
-use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::{BLOCK, Model, NeighbourGroup, Particles};
 
 use std::ops::Range;
 

@@ -2,11 +2,10 @@
 
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::energy::{EnergyLedger, PushCause, PushStep};
-use crate::weakly_compressible::neighbours::BLOCK;
-use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::SideWalls;
+use crate::weakly_compressible::energy::{PushCause, PushStep};
 use crate::weakly_compressible::terms::side_walls;
-use crate::weakly_compressible::walls::SideWalls;
+use crate::weakly_compressible::{BLOCK, EnergyLedger, Particles};
 
 /// Retards the flow under a gravity `[m/s²]`. Adds to the energies of the blocks, and sets their impulses `[kg m/s]`.
 pub(crate) fn run<const D: usize>(

@@ -8,9 +8,8 @@ use super::records::{self, LaneRecord, Writer};
 use crate::lanes::algebra::zero_tensor;
 use crate::lanes::{Lanes, Real};
 use crate::vector::equivalent_shear_stress;
-use crate::weakly_compressible::model::{Model, PairDiffusion};
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::stress_diffusion;
+use crate::weakly_compressible::{Model, PairDiffusion, Particles};
 
 /// Sums of the stress ratio's diffusion around eight particles.
 pub(super) struct StressRatio<V: Lanes, P: Precision, const D: usize> {

@@ -8,9 +8,8 @@ use super::precision::Precision;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::algebra::{difference, dot, load_tensor, matrix_product, product, scaled};
 use crate::lanes::{LANES, LaneIndices, LaneNumbers, Lanes, Real, gather_tensors};
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{hourglass, no_slip, stress_divergence, wall_slip};
+use crate::weakly_compressible::{Model, Particles};
 use std::ops::Range;
 
 /// Neighbour data of a wall particle: records of the length of [`FlowPartner`]'s with a layout of their own.

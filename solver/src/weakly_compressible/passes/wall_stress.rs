@@ -6,11 +6,9 @@ use crate::lanes::algebra::{difference, dot, product, splat_vector, zero_tensor}
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_tensors, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Tensor;
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::NeighbourGroup;
-use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::WallTreatment;
 use crate::weakly_compressible::terms::wall_extrapolation as terms;
-use crate::weakly_compressible::walls::WallTreatment;
+use crate::weakly_compressible::{Model, NeighbourGroup, Particles};
 
 /// Wall particles per block of the parallel loops over walls.
 pub(super) const BLOCK: usize = 64;

@@ -15,9 +15,8 @@ use crate::lanes::algebra::{difference, dot, store_vector, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::wall_extrapolation as terms;
+use crate::weakly_compressible::{Model, Particles};
 
 /// Velocity `[m/s]` of every wall particle: −d_w Σ V W v_f d_f / Σ V W d_f², the line through zero at the
 /// surface that fits the flow best, relative to the wall's own velocity. A smooth wall has the flow's mean velocity

@@ -41,10 +41,8 @@ pub use system::ViscousSystem;
 
 use crate::linear::{Descent, Stalled, descend};
 use crate::vector::Vector;
-use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::passes::PairData;
-use crate::weakly_compressible::walls::Images;
+use crate::weakly_compressible::PairData;
+use crate::weakly_compressible::{Images, Model, Particles};
 
 /// Iterations after which a solve is given up.
 pub const MOST_ITERATIONS: usize = 1000;

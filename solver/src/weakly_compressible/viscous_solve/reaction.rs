@@ -11,13 +11,11 @@ use crate::lanes::algebra::{accumulate, difference, product, scaled, store_vecto
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::neighbours::BLOCK;
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::shell_impulse::{Booking, NO_OWNER, WallImpulse};
 use crate::weakly_compressible::passes::{layout, records};
 use crate::weakly_compressible::terms::{no_slip, wall_slip};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
-use crate::weakly_compressible::walls::Images;
+use crate::weakly_compressible::{BLOCK, Images, Particles};
 
 impl<const D: usize> ViscousSolve<'_, D> {
     /// Adds the reaction to the increment that was solved for: to `impulses` what facet walls give, and to the support of each

@@ -11,11 +11,10 @@ use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::material::turbulence::dynamic_eddy_viscosity;
 use crate::parallel::prelude::*;
 use crate::weakly_compressible::energy::sum_of_lanes;
-use crate::weakly_compressible::neighbours::BLOCK;
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
 use crate::weakly_compressible::passes::records::{self, Records};
 use crate::weakly_compressible::terms::{no_slip, wall_slip};
+use crate::weakly_compressible::{BLOCK, Particles};
 
 impl<const D: usize> ViscousSolve<'_, D> {
     /// Pair vectors, coefficients, and what the diagonal needs of a neighbour in the place of its stress.

@@ -4,10 +4,8 @@
 use super::lane;
 use crate::lanes::LANES;
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::neighbours::BLOCK;
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::records::Records;
-use crate::weakly_compressible::walls::Images;
+use crate::weakly_compressible::{BLOCK, Images, Particles};
 
 /// Groups per block of the parallel loops.
 pub(super) const GROUPS: usize = BLOCK / LANES;

@@ -7,8 +7,8 @@ use crate::lanes::algebra::{
 };
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;
+use crate::weakly_compressible::BLOCK;
 use crate::weakly_compressible::energy::sum_of_lanes;
-use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::passes::records::{self, Records};
 
 impl<const D: usize> ViscousSolve<'_, D> {
