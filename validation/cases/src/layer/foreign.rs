@@ -5,7 +5,7 @@ use super::probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema, ParticleFrame};
 use crate::input::FieldError;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::Snapshot;
 
 /// Possible data of a layer's run.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {

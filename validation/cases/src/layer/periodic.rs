@@ -5,7 +5,7 @@ use crate::case::ParameterError;
 use crate::setup::rules;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{between, positive};
-use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

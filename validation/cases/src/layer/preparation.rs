@@ -4,8 +4,7 @@ use crate::checkpoint::is_interrupted;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::scene::Scene;
-use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::{Scene, Simulation};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

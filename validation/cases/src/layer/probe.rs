@@ -4,7 +4,7 @@ use super::{BINS, Layer, PeriodicLayer};
 use crate::metric::unsteadiness;
 use crate::observation::EnergyBook;
 use crate::statistics::relative_l2;
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::Snapshot;
 use serde::{Deserialize, Serialize};
 
 /// Depth means over time; every array has the shape `[samples]`.

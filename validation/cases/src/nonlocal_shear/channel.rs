@@ -8,10 +8,8 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::numerics::Numerics;
-use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::walls::wall::fill;
-use bagnold_solver::weakly_compressible::walls::{SideWalls, Wall};
+use bagnold_solver::weakly_compressible::{Numerics, Scene, SideWalls, Wall};
 
 /// Bulk modulus over the largest pressure `[-]`.
 pub const STIFFNESS: f64 = 50.0;

@@ -4,7 +4,7 @@ use super::channel::Channel;
 use crate::metric::unsteadiness;
 use crate::observation::EnergyBook;
 use crate::statistics::mean;
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::Snapshot;
 use serde::{Deserialize, Serialize};
 
 /// Results of a run.

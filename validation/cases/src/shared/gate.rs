@@ -1,6 +1,6 @@
 //! Gates in front of what collapses.
 
-use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::Scene;
 use bagnold_solver::weakly_compressible::walls::gate::Gate;
 
 /// Closes a scene beyond a place `[m]` by a gate of some rows of particles that is lifted at a speed `[m/s]` clear of a height `[m]`.

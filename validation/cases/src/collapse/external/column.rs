@@ -10,7 +10,7 @@ use crate::collapse::{Collapse, ColumnFlow};
 use crate::input::FieldError;
 use crate::metric::Quantity;
 use crate::setup::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::Snapshot;
 
 /// Possible data of a column's run.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {

@@ -4,7 +4,7 @@ use crate::case::ParticleFrame;
 use crate::collapse::heap::radius;
 use crate::input::FieldError;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::Snapshot;
 
 /// Columns of the velocity.
 pub(super) const SPEEDS: [&str; 3] = ["vx", "vy", "vz"];

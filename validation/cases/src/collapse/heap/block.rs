@@ -5,10 +5,8 @@ use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::numerics::Numerics;
-use bagnold_solver::weakly_compressible::scene::Scene;
-use bagnold_solver::weakly_compressible::walls::Wall;
 use bagnold_solver::weakly_compressible::walls::wall::fill;
+use bagnold_solver::weakly_compressible::{Numerics, Scene, Wall};
 
 /// Bulk modulus over ρ0 g h_0 `[-]`.
 pub(crate) const STIFFNESS: f64 = 50.0;

@@ -1,7 +1,7 @@
 //! Takes the frames of an animation during a run.
 
 use crate::observation::{MotionFrame, MotionSequence};
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::Snapshot;
 use serde::{Deserialize, Serialize};
 
 /// Most pictures of a run: what comes later is at rest.

@@ -6,7 +6,7 @@ use crate::observation::{EnergyBook, MotionSequence};
 use crate::setup::front::end_of_profile;
 use crate::statistics::linear_fit;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::Snapshot;
 use serde::{Deserialize, Serialize};
 
 /// Width of a bin over the initial half width `[-]`: the same at every resolution.

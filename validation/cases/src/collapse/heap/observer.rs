@@ -3,7 +3,7 @@
 use super::camera::Camera;
 use super::deposit::{AT_REST, Collapse, Surveyor};
 use crate::observation::Frame;
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::Snapshot;
 use serde::{Deserialize, Serialize};
 
 /// Observer of a run.

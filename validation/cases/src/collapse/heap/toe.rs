@@ -12,7 +12,7 @@
 //! volume of all that lies there in fewer. In space, where a ring holds many grains, it begins at two rows. A wedge of grains and a steep face thereby keep their place at every spacing.
 
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::Snapshot;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// Rows from which on a place of a heap is resolved, in the plane and in space.

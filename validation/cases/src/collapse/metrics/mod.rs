@@ -22,7 +22,7 @@ use crate::reference::collapse::{
 };
 use crate::setup::energy_ledger::{self, EnergyScale};
 use bagnold_solver::material::rheology::Rheology;
-use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::{Numerics, ViscousStep};
 use bands::AcceptanceBand;
 use convergence::{numerical_uncertainty, relative_spread};
 use other_codes::{Beside, MID_COLLAPSE};

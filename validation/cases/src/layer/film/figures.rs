@@ -7,7 +7,7 @@ use crate::figure::{Axis, Figure, Panel};
 use crate::observation::Outcome;
 use crate::shared::Arrangement;
 use bagnold_solver::material::rheology::Rheology;
-use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::{MomentumOperator, Numerics};
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let newtonian = |run: &FilmFlow| run.is_newtonian() && run.arrangement == Arrangement::Jittered;

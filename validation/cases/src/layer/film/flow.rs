@@ -9,7 +9,7 @@ use crate::setup::rules;
 use crate::shared::Arrangement;
 use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
 use bagnold_solver::parameter::{between, positive};
-use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::{MomentumOperator, Numerics};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -4,8 +4,7 @@ use crate::case::recording::{Ending, RestartableRun, SimulationStage, follow, re
 use crate::case::{ParameterError, Progress};
 use crate::layer::{Layer, PeriodicLayer};
 use crate::observation::Recorded;
-use bagnold_solver::weakly_compressible::simulation::Simulation;
-use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::{Simulation, Snapshot};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 

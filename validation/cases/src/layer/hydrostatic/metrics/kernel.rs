@@ -4,7 +4,7 @@
 use super::{KERNEL_INTEGRAL_ERROR, KERNEL_MOMENT_ERROR};
 use crate::metric::{Limit, Metric, Variant};
 use bagnold_solver::kernel::{Kernel, KernelShape};
-use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::Numerics;
 use std::f64::consts::PI;
 
 /// Cells of the midpoint rule over the support.
