@@ -1,7 +1,7 @@
 //! Quantities that can leave their range in an incompressible run, and the rules. A failed step, as the passes see it,
 //! is a row of the velocity system and such a quantity, without a place and a time.
 
-use super::numerics::MOST_ITERATIONS;
+use super::MOST_ITERATIONS;
 
 const RESIDUAL: &str = "(residual over its right-hand side)";
 

@@ -31,14 +31,20 @@ mod terms;
 mod velocity_solve;
 
 pub use columns::DrivenGrains;
+pub(crate) use divergence::Failure;
+pub(crate) use neighbours::{LEAST_GROUPS, LEAST_TASK, Periods};
+pub(crate) use numerics::MOST_ITERATIONS;
 pub use numerics::{
     ColumnNumerics, Continuity, DragSlip, MeanFlux, PairLaw, PressureSource, ProjectionNumerics, SurfaceTreatment,
 };
+pub(crate) use phase::{Phase, Phases};
 pub use saved::SavedIncompressible;
+pub(crate) use scene::height_axis;
 pub use scene::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure, SolidFraction,
     Turbulence,
 };
 pub use simulation::{IncompressibleSimulation, SolverCost};
 pub use snapshot::{IncompressibleSnapshot, PhaseSnapshot};
+pub(crate) use state::State;
 pub use stratification::{Strata, Stratification};

@@ -6,10 +6,7 @@
 
 use super::columns::{Columns, Saved};
 use super::neighbours::{Layers, SavedList, SavedPairs};
-use super::phase::Phase;
-use super::scene::IncompressibleScene;
-use super::simulation::{IncompressibleSimulation, SolverCost};
-use super::state::State;
+use super::{IncompressibleScene, IncompressibleSimulation, Phase, SolverCost, State};
 use crate::run::{ContinueError, ForeignState};
 use crate::vector::{Tensor, Vector};
 use serde::{Deserialize, Serialize};

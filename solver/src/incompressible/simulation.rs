@@ -1,9 +1,7 @@
 //! An incompressible simulation as others see it: how it is set up, run and read.
 
-use super::scene::IncompressibleScene;
-use super::snapshot::{IncompressibleSnapshot, PhaseSnapshot};
-use super::state::State;
 use super::step::step;
+use super::{IncompressibleScene, IncompressibleSnapshot, PhaseSnapshot, State};
 use crate::run::observed_run::{self, Stepping};
 use crate::run::{Divergence, Observer, RunProgress, SceneError, StopReason, Watching};
 use crate::vector::Vector;

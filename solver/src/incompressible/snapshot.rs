@@ -1,6 +1,6 @@
 //! A copy of both phases in the order of the scene.
 
-use super::phase::Phase;
+use super::Phase;
 use super::state::SedimentParticles;
 use crate::vector::Vector;
 use serde::{Deserialize, Serialize};

@@ -1,14 +1,12 @@
 //! All that a run carries from step to step.
 
 use super::columns::{Columns, Grains};
-use super::divergence::Failure;
 use super::passes::drag_exchange::DragExchange;
 use super::passes::search::Search;
 use super::passes::viscosities::Viscosities;
-use super::phase::{Phase, Phases};
 use super::projection::Projection;
-use super::scene::IncompressibleScene;
 use super::velocity_solve::VelocitySystem;
+use super::{Failure, IncompressibleScene, Phase, Phases};
 use crate::run::{Divergence, SceneError};
 use crate::vector::Vector;
 

@@ -1,16 +1,12 @@
 //! One step: pairs, surface, gradients, laws, implicit velocities of both phases, pressure and motion, shifting.
 
 use super::columns::relax_fluctuation;
-use super::divergence::Failure;
-use super::numerics::{Continuity, ProjectionNumerics};
 use super::passes::pair_rows::{Friction, MiddleViscosity, fill_rows};
 use super::passes::shifting::find_shifts;
 use super::passes::surroundings::{Gradients, find_surroundings};
-use super::phase::Phases;
 use super::projection::Flux;
-use super::scene::{Bed, Turbulence};
-use super::state::State;
 use super::velocity_solve::VelocityRows;
+use super::{Bed, Continuity, Failure, Phases, ProjectionNumerics, State, Turbulence};
 use crate::run::Divergence;
 
 /// Takes a step of at most the time step of the numerics.

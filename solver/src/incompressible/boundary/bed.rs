@@ -1,9 +1,7 @@
 //! Friction of what the fluid flows over.
 
-use super::super::numerics::ProjectionNumerics;
-use super::super::phase::Phase;
-use super::super::scene::{Bed, height_axis};
 use super::super::terms::viscous_pair;
+use super::super::{Bed, Phase, ProjectionNumerics, height_axis};
 use crate::lanes::Lanes;
 
 /// Mirror velocity of wall particles below a no-slip bed relative to their partner, for zero velocity at the wall.

@@ -1,7 +1,6 @@
 //! The free surface: where neighbours are missing.
 
-use super::super::numerics::ProjectionNumerics;
-use super::super::phase::Phase;
+use super::super::{Phase, ProjectionNumerics};
 use crate::lanes::Lanes;
 
 /// Deficit of neighbours above which a particle lies at the surface (31) `[-]`.

@@ -4,9 +4,8 @@
 //! The water feels it in its implicit velocities, as something that holds it and moves with the node, β (U − u*); the node
 //! gets the opposite of what came out of that solve.
 
-use super::super::divergence::{Failure, Quantity};
-use super::super::phase::Phase;
-use super::super::scene::{IncompressibleScene, Sediment, height_axis};
+use super::super::divergence::Quantity;
+use super::super::{Failure, IncompressibleScene, Phase, Sediment, height_axis};
 use super::grid::ColumnGrid;
 use super::nodes::Nodes;
 use crate::vector::Vector;

@@ -1,9 +1,7 @@
 //! Grains that dilate under water whose velocity is given: what they do with the drag alone.
 
-use super::super::phase::Phase;
-use super::super::scene::IncompressibleScene;
-use super::super::state::State;
 use super::super::step::measure;
+use super::super::{IncompressibleScene, Phase, State};
 use super::Columns;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;

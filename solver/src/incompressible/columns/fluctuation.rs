@@ -3,9 +3,7 @@
 //!
 //! Between grains w relaxes towards its mean, dw/dt = −(w − w̄)/T_q min(φ/φ_q, 1), implicitly.
 
-use super::super::numerics::ProjectionNumerics;
-use super::super::phase::Phase;
-use super::super::scene::{IncompressibleScene, height_axis};
+use super::super::{IncompressibleScene, Phase, ProjectionNumerics, height_axis};
 use crate::vector::Vector;
 
 /// Relaxes the predicted velocities `[m/s]` of the fluid across the bed towards a mean at each particle `[m/s]`.

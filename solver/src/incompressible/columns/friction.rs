@@ -6,7 +6,7 @@
 //! where the friction yields, secants alone crawl. The share grows until secants are all there is, so that the iteration
 //! ends. A node without mass needs no special case: the stress above it is that below.
 
-use super::super::numerics::{ColumnNumerics, MOST_ITERATIONS};
+use super::super::{ColumnNumerics, MOST_ITERATIONS};
 use crate::material::rheology::Rheology;
 
 /// Free nodes of a column that rub on each other, from the lowest one up; the first lies above one that is held.

@@ -1,7 +1,6 @@
 //! The grains as particles: they carry mass and momentum from step to step, and nothing else.
 
-use super::super::divergence::Failure;
-use super::super::scene::Sediment;
+use super::super::{Failure, Sediment};
 use crate::domain::Domain;
 use crate::vector::Vector;
 

@@ -30,11 +30,12 @@ pub use driven::DrivenGrains;
 pub(super) use fluctuation::relax_fluctuation;
 pub use grains::Grains;
 
-use super::divergence::{Failure, Quantity};
-use super::numerics::ColumnNumerics;
-use super::phase::Phase;
-use super::scene::{IncompressibleScene, Sediment, SedimentPressure, SolidFraction, height_axis};
-use super::stratification::{ColumnRow, Stratification};
+use super::divergence::Quantity;
+use super::stratification::ColumnRow;
+use super::{
+    ColumnNumerics, Failure, IncompressibleScene, Phase, Sediment, SedimentPressure, SolidFraction, Stratification,
+    height_axis,
+};
 use crate::domain::AxisBoundary;
 use crate::material::dilatancy::Dilatancy;
 use crate::run::ForeignState;

@@ -1,6 +1,6 @@
 //! Fields of the nodes, gathered from the particles: mass, velocity, φ, the overburden p′ and what φ tends to.
 
-use super::super::scene::height_axis;
+use super::super::height_axis;
 use super::grains::Grains;
 use super::grid::{ColumnGrid, ramp};
 use crate::material::dilatancy::Dilatancy;

@@ -5,7 +5,7 @@
 //! as long as no two successive layers move apart by a skin. Layers without particles are left out of the succession,
 //! so that a drop above the surface is compared with the surface.
 
-use super::super::scene::height_axis;
+use super::super::height_axis;
 use crate::domain::{AxisBoundary, Domain};
 use crate::run::ForeignState;
 use crate::vector::Vector;

@@ -3,12 +3,10 @@
 //! The slip is the pair's own, as printed, or that of the grain against the mean of the fluid around it, which the shear
 //! within the kernel does not enlarge.
 
-use super::super::divergence::{Failure, Quantity};
-use super::super::neighbours::{Grid, LEAST_TASK, Pairs, Periods, SavedPairs};
-use super::super::numerics::DragSlip;
-use super::super::phase::Phase;
-use super::super::scene::{DragForm, IncompressibleScene, Sediment};
+use super::super::divergence::Quantity;
+use super::super::neighbours::{Grid, Pairs, SavedPairs};
 use super::super::terms::drag_pair;
+use super::super::{DragForm, DragSlip, Failure, IncompressibleScene, LEAST_TASK, Periods, Phase, Sediment};
 use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
 use crate::parallel::prelude::*;

@@ -5,12 +5,11 @@
 //! taken of the rounded numbers, so that they agree with it. The operators are those of `projection/pressure_poisson`.
 
 use super::super::boundary::AT_SURFACE;
-use super::super::neighbours::{LEAST_GROUPS, LEAST_TASK, Periods};
-use super::super::numerics::{ProjectionNumerics, SurfaceTreatment};
-use super::super::phase::{Phase, records};
-use super::super::scene::height_axis;
-use super::super::stratification::Stratification;
+use super::super::phase::records;
 use super::super::terms::viscous_pair;
+use super::super::{
+    LEAST_GROUPS, LEAST_TASK, Periods, Phase, ProjectionNumerics, Stratification, SurfaceTreatment, height_axis,
+};
 use super::pressure_rows::PressureRows;
 use super::surroundings::separation;
 use crate::kernel::Kernel;

@@ -1,7 +1,7 @@
 //! The search of candidate pairs, when one is due.
 
-use super::super::neighbours::{Layers, Periods};
-use super::super::phase::{Phase, Phases};
+use super::super::neighbours::Layers;
+use super::super::{Periods, Phase, Phases};
 use super::drag_exchange::DragExchange;
 use crate::domain::Domain;
 use crate::run::ForeignState;

@@ -4,9 +4,8 @@
 //! surface and beside it, where ∇C is that of the surface, and no more than a part of a spacing.
 
 use super::super::boundary::AT_SURFACE;
-use super::super::neighbours::{LEAST_TASK, Periods};
-use super::super::numerics::ProjectionNumerics;
-use super::super::phase::{Phase, records};
+use super::super::phase::records;
+use super::super::{LEAST_TASK, Periods, Phase, ProjectionNumerics};
 use crate::lanes::algebra::{accumulate, difference, dot};
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, Real, gather, gather_vectors};
 use crate::parallel::prelude::*;

@@ -4,10 +4,9 @@
 //! the corrected velocity gradient.
 
 use super::super::boundary::{AT_SURFACE, Surface, WallMirror};
-use super::super::neighbours::{Across, LEAST_GROUPS, LaneList, Periods};
-use super::super::numerics::ProjectionNumerics;
-use super::super::phase::{Phase, WallSums, records};
-use super::super::scene::{Bed, height_axis};
+use super::super::neighbours::{Across, LaneList};
+use super::super::phase::{WallSums, records};
+use super::super::{Bed, LEAST_GROUPS, Periods, Phase, ProjectionNumerics, height_axis};
 use crate::kernel::Kernel;
 use crate::lanes::algebra::dot;
 use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real};

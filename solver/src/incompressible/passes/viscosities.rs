@@ -4,9 +4,7 @@
 //! like the flow's own in a deep stream, and |∇u| would count them as shear. The mean is one over time along the way of
 //! each particle, d⟨∇u⟩/dt = (∇u − ⟨∇u⟩)/T: of the tensor, in which random parts cancel, not of its norm.
 
-use super::super::neighbours::LEAST_TASK;
-use super::super::phase::{Phase, Phases};
-use super::super::scene::{IncompressibleScene, Turbulence, height_axis};
+use super::super::{IncompressibleScene, LEAST_TASK, Phase, Phases, Turbulence, height_axis};
 use crate::material::turbulence::eddy_viscosity;
 use crate::parallel::prelude::*;
 use crate::run::ForeignState;

@@ -8,8 +8,8 @@ mod sliding_rows;
 pub use lattice_sums::LatticeSums;
 pub(crate) use phases::Phases;
 
-use super::neighbours::{Grid, LaneList, Periods, Places, Sources};
-use super::scene::ParticleSet;
+use super::neighbours::{Grid, LaneList, Places, Sources};
+use super::{ParticleSet, Periods};
 use crate::domain::Domain;
 use crate::kernel::{Kernel, KernelShape};
 use crate::lanes::LANES;

@@ -1,6 +1,6 @@
 //! Selection of the density errors that a pressure corrects.
 
-use super::super::phase::Phase;
+use super::super::Phase;
 
 /// Density errors that a pressure corrects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,13 +11,12 @@ mod pressure_poisson;
 pub(super) use mixture::{Flux, Mixture};
 pub use pressure_poisson::PressurePoisson;
 
-use super::divergence::{Failure, Quantity};
-use super::neighbours::Periods;
-use super::numerics::{PressureSource, ProjectionNumerics};
+use super::divergence::Quantity;
 use super::passes::pair_rows::fill_rows;
 use super::passes::surroundings::{Gradients, find_surroundings};
-use super::phase::{Phase, Phases};
-use super::scene::{Bed, IncompressibleScene, SedimentPressure};
+use super::{
+    Bed, Failure, IncompressibleScene, Periods, Phase, Phases, PressureSource, ProjectionNumerics, SedimentPressure,
+};
 use crate::domain::Domain;
 use crate::linear::NotConverged;
 use crate::vector::Vector;

@@ -1,9 +1,7 @@
 //! Motion of particles with their new velocities. The first that would move by more than a spacing is an error: its
 //! index and its displacement in spacings.
 
-use super::super::numerics::PressureSource;
-use super::super::phase::Phase;
-use super::super::scene::height_axis;
+use super::super::{Phase, PressureSource, height_axis};
 use super::pressure_poisson::PressurePoisson;
 use crate::linear::TASK_ROWS;
 use crate::parallel::prelude::*;

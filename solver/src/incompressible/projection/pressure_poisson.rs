@@ -18,10 +18,8 @@
 //! lifted until its lowest is 0, as it is below a surface: (13) draws particles together where P is negative, and
 //! nothing else keeps them apart.
 
-use super::super::neighbours::LEAST_TASK;
-use super::super::numerics::{MOST_ITERATIONS, PressureSource, ProjectionNumerics, SurfaceTreatment};
 use super::super::passes::pressure_rows::{LinkChunk, PressureRows};
-use super::super::phase::Phase;
+use super::super::{LEAST_TASK, MOST_ITERATIONS, Phase, PressureSource, ProjectionNumerics, SurfaceTreatment};
 use super::correction::Correction;
 use super::gauge::Gauge;
 use super::pressure_links::{Divergence, Gradient, Link};

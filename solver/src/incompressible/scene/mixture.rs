@@ -1,6 +1,6 @@
 //! Check of scenes that use the mixture's continuity.
 
-use super::super::numerics::{Continuity, MeanFlux, PressureSource, SurfaceTreatment};
+use super::super::{Continuity, MeanFlux, PressureSource, SurfaceTreatment};
 use super::{IncompressibleScene, SedimentPressure};
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;

@@ -6,8 +6,7 @@ mod sediment;
 
 pub use sediment::{DragForm, Sediment, SedimentLoad, SedimentPressure};
 
-use super::numerics::ProjectionNumerics;
-use super::stratification::Stratification;
+use super::{ProjectionNumerics, Stratification};
 use crate::domain::Domain;
 use crate::material::turbulence::{MixingLength, RoughWall, Smagorinsky};
 use crate::vector::Vector;

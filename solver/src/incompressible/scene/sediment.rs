@@ -1,7 +1,6 @@
 //! The sediment of an incompressible scene.
 
-use super::super::numerics::ColumnNumerics;
-use super::super::stratification::Stratification;
+use super::super::{ColumnNumerics, Stratification};
 use super::{ParticleSet, height_axis};
 use crate::material::dilatancy::Dilatancy;
 use crate::material::drag::DragLaw;

@@ -9,10 +9,9 @@ mod rows;
 
 pub(super) use rows::VelocityRows;
 
-use super::divergence::{Failure, Quantity};
-use super::numerics::{MOST_ITERATIONS, ProjectionNumerics};
+use super::divergence::Quantity;
 use super::passes::pair_rows::FrictionRows;
-use super::phase::Phase;
+use super::{Failure, MOST_ITERATIONS, Phase, ProjectionNumerics};
 use crate::linear::{ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, NotConverged, Rows, Single, TwoRows};
 use crate::vector::Vector;
 

@@ -1,6 +1,6 @@
 //! The η_a + η_b of two sediment particles: the law at the rate and the load of a pair, or a mean of the particles' own.
 
-use super::super::numerics::PairLaw;
+use super::super::PairLaw;
 use super::super::terms::viscous_pair::mean_rate;
 use crate::material::rheology::Rheology;
 

@@ -3,12 +3,10 @@
 
 use super::super::boundary;
 use super::super::columns::drag::ColumnDrag;
-use super::super::neighbours::Periods;
 use super::super::passes::drag_exchange::DragExchange;
 use super::super::passes::viscosities::Viscosities;
-use super::super::phase::{Phase, Phases};
-use super::super::scene::{IncompressibleScene, Sediment, height_axis};
 use super::super::terms::{drag_pair, viscous_pair};
+use super::super::{IncompressibleScene, Periods, Phase, Phases, Sediment, height_axis};
 use super::VelocitySystem;
 use super::pair_law::{self, End};
 use crate::lanes::LANES;

@@ -18,9 +18,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::super::phase::Phase;
-use super::super::scene::{IncompressibleScene, Sediment, height_axis};
-use super::super::stratification::Stratification;
+use super::super::{IncompressibleScene, Phase, Sediment, Stratification, height_axis};
 use super::grid::ColumnGrid;
 use super::nodes::Nodes;
 use crate::material::dilatancy::Dilatancy;

@@ -1,6 +1,6 @@
 //! Suspensions against the profiles of imposed eddies and settling velocities, which are known exactly.
 
-use super::super::super::scene::SedimentPressure;
+use super::super::super::SedimentPressure;
 use super::super::Columns;
 use super::super::tests::columns_of;
 use super::super::tests::moving_bed::{scene, shear_flow, with_eddies};

@@ -7,15 +7,12 @@
 //! implicit velocities begin with the push of the last step's pressure, which is taken back before the new one is sought.
 
 use super::{Mixture, Operators};
-use crate::incompressible::divergence::Failure;
-use crate::incompressible::neighbours::Periods;
-use crate::incompressible::numerics::MeanFlux;
 use crate::incompressible::passes::drag_exchange::DragExchange;
-use crate::incompressible::phase::{LatticeSums, Phase, Phases};
+use crate::incompressible::phase::LatticeSums;
 use crate::incompressible::projection::pressure_poisson::PressurePoisson;
 use crate::incompressible::projection::{motion, residual};
-use crate::incompressible::scene::IncompressibleScene;
 use crate::incompressible::velocity_solve::VelocitySystem;
+use crate::incompressible::{Failure, IncompressibleScene, MeanFlux, Periods, Phase, Phases};
 use crate::vector::Vector;
 
 /// Inputs of the mixture's flux in a step, besides its velocities.
