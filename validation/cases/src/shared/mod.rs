@@ -12,6 +12,9 @@ pub(crate) use metrics::printed_laws;
 use crate::reference::one_dimension::bed_load::Stream;
 use bagnold_number::four_digits;
 
+/// A run's observation from what another code gives, or what is wrong with that.
+pub(crate) type Observed<O> = Result<crate::case::ExternalObservation<O>, crate::input::FieldError>;
+
 /// Transport of bed load in the units of flumes with its 95 % interval by a source, from q* and its standard uncertainty `[-]`; none without a
 /// value.
 pub(crate) fn transport_in_units(stream: &Stream, transport: f64, uncertainty: f64, by: &str) -> Option<String> {

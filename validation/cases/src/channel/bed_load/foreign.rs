@@ -7,6 +7,7 @@ use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSch
 use crate::channel::{self, BlockProfile, ProfilePoint};
 use crate::input::FieldError;
 use crate::metric::Quantity;
+use crate::shared::Observed;
 use crate::statistics::BLOCKS;
 
 /// Possible data of a run.
@@ -61,10 +62,7 @@ fn names(groups: &[&[Quantity]]) -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// A 1-D layer to compare with that cannot be computed.
-pub(super) fn observe(
-    run: &BedLoadFlow,
-    given: &ExternalData,
-) -> Result<ExternalObservation<BedLoadObservation>, FieldError> {
+pub(super) fn observe(run: &BedLoadFlow, given: &ExternalData) -> Observed<BedLoadObservation> {
     let water = channel::foreign::observe(given)?.observation;
     let mut measured = Vec::new();
     let (height, velocity) = (given.profile("height"), given.profile("grain_velocity"));
