@@ -12,6 +12,9 @@ pub(crate) use metrics::printed_laws;
 use crate::reference::one_dimension::bed_load::Stream;
 use bagnold_number::four_digits;
 
+/// A quantity over the height.
+pub(crate) type OverHeight<'a> = &'a (dyn Fn(f64) -> f64 + Sync);
+
 /// A run's observation from what another code gives, or what is wrong with that.
 pub(crate) type Observed<O> = Result<crate::case::ExternalObservation<O>, crate::input::FieldError>;
 

@@ -12,6 +12,7 @@ use crate::reference::one_dimension::bed_load::{
     BedLoadLayer, GrainMotion, LayerState, STEADY, SolidFractionProfile, SteadyStates,
 };
 use crate::setup::Lattice;
+use crate::shared::OverHeight;
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, ParticleSet, ProjectionNumerics, Sediment, Turbulence};
 use bagnold_solver::material::dilatancy::Dilatancy;
@@ -72,11 +73,7 @@ impl BedLoadFlow {
         Ok(dilating)
     }
 
-    pub(super) fn continuum_channel<'a>(
-        &self,
-        layer: &LayerState,
-        velocity: &'a (dyn Fn(f64) -> f64 + Sync),
-    ) -> Channel<'a> {
+    pub(super) fn continuum_channel<'a>(&self, layer: &LayerState, velocity: OverHeight<'a>) -> Channel<'a> {
         let continuum = &self.continuum;
         // the spacing that divides the height, so that the surface lies where it should
         let height = self.depth + continuum.bed_depth;

@@ -6,7 +6,7 @@ use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::film::{Incline, NewtonianFilm};
 use crate::setup::rules;
-use crate::shared::Arrangement;
+use crate::shared::{Arrangement, OverHeight};
 use bagnold_solver::incompressible::{Bed, ProjectionNumerics};
 use bagnold_solver::parameter::{between, positive};
 use schemars::JsonSchema;
@@ -100,7 +100,7 @@ impl WaterFilmFlow {
         NewtonianFilm { incline, viscosity: self.water.density * self.kinematic_viscosity() }
     }
 
-    fn channel<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
+    fn channel<'a>(&self, velocity: OverHeight<'a>) -> Channel<'a> {
         let relaxation_time = self.relaxation_time();
         Channel {
             slope: self.slope,

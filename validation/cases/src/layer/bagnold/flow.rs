@@ -8,7 +8,7 @@ use crate::observation::Recorded;
 use crate::reference::grains::GLASS_BEADS;
 use crate::reference::one_dimension::{BagnoldProfile, time_to_steadiness};
 use crate::setup::rules;
-use crate::shared::Arrangement;
+use crate::shared::{Arrangement, OverHeight};
 use bagnold_solver::material::rheology::{MuI, RegularisedMuI, Rheology};
 use bagnold_solver::parameter::{between, not_negative, positive};
 use schemars::JsonSchema;
@@ -292,11 +292,7 @@ impl BagnoldFlow {
         self.recipe().max(self.duration_factor * steady.unwrap_or(0.0))
     }
 
-    pub(super) fn layer<'a>(
-        &self,
-        velocity: &'a (dyn Fn(f64) -> f64 + Sync),
-        shear_stress: &'a (dyn Fn(f64) -> f64 + Sync),
-    ) -> Layer<'a> {
+    pub(super) fn layer<'a>(&self, velocity: OverHeight<'a>, shear_stress: OverHeight<'a>) -> Layer<'a> {
         let duration = self.duration();
         let is_runaway = self.fate() == Fate::Runaway;
         let particles = PeriodicLayer { jitter: self.arrangement.displacement(self.layer.jitter), ..self.layer };

@@ -6,7 +6,7 @@ use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::film::{Incline, SteadyFilm};
 use crate::setup::rules;
-use crate::shared::Arrangement;
+use crate::shared::{Arrangement, OverHeight};
 use bagnold_solver::material::rheology::{Bingham, HerschelBulkley, Newtonian, Rheology};
 use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::{MomentumOperator, Numerics};
@@ -188,7 +188,7 @@ impl FilmFlow {
         0.15 * self.duration()
     }
 
-    pub(super) fn layer<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Layer<'a> {
+    pub(super) fn layer<'a>(&self, velocity: OverHeight<'a>) -> Layer<'a> {
         let film = self.film();
         let PeriodicLayer { layer_height, gravity, .. } = self.layer;
         let duration = self.duration();

@@ -9,7 +9,7 @@ use crate::reference::collapse::RoughIncline;
 use crate::reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
 use crate::reference::one_dimension::{BagnoldProfile, NonlocalLayer, NonlocalProfile};
 use crate::setup::rules;
-use crate::shared::Arrangement;
+use crate::shared::{Arrangement, OverHeight};
 use bagnold_solver::material::rheology::field::FieldBoundary;
 use bagnold_solver::material::rheology::{MuI, NonlocalMuI, Rheology};
 use bagnold_solver::parameter::{between, positive};
@@ -215,12 +215,7 @@ impl FlowThicknessFlow {
     }
 
     /// The layer, with a depth mean of its velocity at the start `[m/s]`.
-    fn layer<'a>(
-        &self,
-        depth_mean: f64,
-        velocity: &'a (dyn Fn(f64) -> f64 + Sync),
-        shear_stress: &'a (dyn Fn(f64) -> f64 + Sync),
-    ) -> Layer<'a> {
+    fn layer<'a>(&self, depth_mean: f64, velocity: OverHeight<'a>, shear_stress: OverHeight<'a>) -> Layer<'a> {
         let density = self.solid_fraction * self.grains().grain_density;
         let particles = PeriodicLayer { jitter: self.arrangement.displacement(self.layer.jitter), ..self.layer };
         Layer {
