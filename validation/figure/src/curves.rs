@@ -178,25 +178,21 @@ fn reference_pattern(panel: &Panel, series: &Series) -> &'static [f64] {
     PATTERNS[slot % PATTERNS.len()]
 }
 
-/// Draws the sample of a series in a legend, from `left` to `right` at height `y`.
-pub(super) fn draw_sample(
-    canvas: &mut Canvas<'_>,
-    panel: &Panel,
-    series: &Series,
-    (left, right, y): (f64, f64, f64),
-) -> Drawn {
+/// Draws the sample of a series in a legend, between two points at one height.
+pub(super) fn draw_sample(canvas: &mut Canvas<'_>, panel: &Panel, series: &Series, [left, right]: [Point; 2]) -> Drawn {
     let ink = colour(series.colour);
     match series.mark {
         Mark::Reference => {
-            for dash in dashes(&[(left, y), (right, y)], reference_pattern(panel, series)) {
+            for dash in dashes(&[left, right], reference_pattern(panel, series)) {
                 canvas.polyline(&dash, Ink::solid(BLACK, REFERENCE))?;
             }
         }
-        Mark::Line | Mark::LinePoints => canvas.line((left, y), (right, y), Ink::solid(ink, CURVE))?,
+        Mark::Line | Mark::LinePoints => canvas.line(left, right, Ink::solid(ink, CURVE))?,
         Mark::Points | Mark::OpenPoints => {}
     }
     if matches!(series.mark, Mark::Points | Mark::OpenPoints | Mark::LinePoints) {
-        draw_marker(canvas, (0.5 * (left + right), y), marker_radius(series.points.len()).max(5.5), series)?;
+        let middle = (0.5 * (left.0 + right.0), left.1);
+        draw_marker(canvas, middle, marker_radius(series.points.len()).max(5.5), series)?;
     }
     Ok(())
 }

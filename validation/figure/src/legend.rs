@@ -184,7 +184,7 @@ impl Legend {
             }
             LegendEntry::Series(index) => {
                 if let Some(series) = panel.series.get(index) {
-                    draw_sample(canvas, panel, series, (left, right, y))?;
+                    draw_sample(canvas, panel, series, [(left, y), (right, y)])?;
                 }
             }
         }
