@@ -92,6 +92,9 @@ impl Quantity {
     }
 }
 
+/// What a check of a range lets through.
+pub(crate) type InRange<T> = Result<T, OutOfRange>;
+
 /// A particle with a quantity out of its range.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct OutOfRange {

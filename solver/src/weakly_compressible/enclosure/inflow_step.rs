@@ -3,7 +3,7 @@
 use super::boundary_state::BoundaryState;
 use super::inlet::{BLOCKED, InflowRow};
 use crate::vector::Vector;
-use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
+use crate::weakly_compressible::divergence::{InRange, OutOfRange, Quantity};
 use crate::weakly_compressible::energy::energy_of;
 use crate::weakly_compressible::memory;
 use crate::weakly_compressible::neighbours::MOST_PARTICLES;
@@ -16,12 +16,7 @@ impl<const D: usize> BoundaryState<D> {
     ///
     /// # Errors
     /// A row that the material before its opening does not give way to.
-    pub(crate) fn feed(
-        &mut self,
-        particles: &mut Particles<D>,
-        model: &Model<D>,
-        time: f64,
-    ) -> Result<Option<f64>, OutOfRange> {
+    pub(crate) fn feed(&mut self, particles: &mut Particles<D>, model: &Model<D>, time: f64) -> InRange<Option<f64>> {
         let mut fastest: Option<f64> = None;
         for inlet in 0..self.inlets.len() {
             loop {
@@ -45,7 +40,7 @@ impl<const D: usize> BoundaryState<D> {
         particles: &mut Particles<D>,
         model: &Model<D>,
         (time, beyond): (f64, f64),
-    ) -> Result<f64, OutOfRange> {
+    ) -> InRange<f64> {
         particles.keep_real();
         let count = self.inlets[inlet].cells.len();
         let first = particles.flow_count() + self.first_particles[self.first_inlet() + inlet];
@@ -105,13 +100,7 @@ impl<const D: usize> BoundaryState<D> {
     }
 
     /// Refuses a row that would be pressed into material that does not give way, or that is one too many.
-    fn check_way(
-        &self,
-        inlet: usize,
-        particles: &Particles<D>,
-        model: &Model<D>,
-        row: Range<usize>,
-    ) -> Result<(), OutOfRange> {
+    fn check_way(&self, inlet: usize, particles: &Particles<D>, model: &Model<D>, row: Range<usize>) -> InRange<()> {
         let pressure = &particles.pressure;
         let limit = BLOCKED * model.equation_of_state.bulk_modulus;
         let mean = pressure[row.clone()].iter().sum::<f64>() / row.len() as f64;
