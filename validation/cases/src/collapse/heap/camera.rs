@@ -28,21 +28,14 @@ impl Camera {
         Self { interval, slab, motion: MotionSequence::default() }
     }
 
-    /// Takes a picture if it is time for one; `surface` is a chain of points and `front` a place, both in `[m]`.
-    pub(crate) fn watch<const D: usize>(
-        &mut self,
-        snapshot: &Snapshot<D>,
-        surface: impl Iterator<Item = (f64, f64)>,
-        front: f64,
-    ) {
+    /// Whether it is time for a picture.
+    pub(crate) fn is_due(&self, time: f64) -> bool {
         let taken = self.motion.frames.len();
         // an observer's times are multiples up to rounding
-        if taken < MOST_FRAMES && snapshot.time >= (taken as f64 - 1e-6) * self.interval {
-            self.take(snapshot, surface, front);
-        }
+        taken < MOST_FRAMES && time >= (taken as f64 - 1e-6) * self.interval
     }
 
-    /// Takes a picture; one of the same time is not taken twice.
+    /// Takes a picture; one of the same time is not taken twice. `surface` is a chain of points and `front` a place, both in `[m]`.
     pub(crate) fn take<const D: usize>(
         &mut self,
         snapshot: &Snapshot<D>,
@@ -93,7 +86,10 @@ mod tests {
     fn pictures_come_at_their_times_and_the_last_once() {
         let mut camera = Camera::new(0.1, 0.0);
         for step in 0..9 {
-            camera.watch(&snapshot::<2>(0.025 * f64::from(step), 3), [(0.0, 1.0)].into_iter(), 2.0);
+            let seen = snapshot::<2>(0.025 * f64::from(step), 3);
+            if camera.is_due(seen.time) {
+                camera.take(&seen, [(0.0, 1.0)].into_iter(), 2.0);
+            }
         }
         camera.take(&snapshot::<2>(0.2, 3), std::iter::empty(), 2.0);
         let times: Vec<f64> = camera.motion.frames.iter().map(|frame| frame.time).collect();
@@ -106,11 +102,11 @@ mod tests {
     #[test]
     fn in_space_only_the_slab_is_seen_and_a_crowd_is_thinned() {
         let mut camera = Camera::new(0.1, 1.5);
-        camera.watch(&snapshot::<3>(0.0, 5), std::iter::empty(), 0.0);
+        camera.take(&snapshot::<3>(0.0, 5), std::iter::empty(), 0.0);
         assert_eq!(camera.motion.frames[0].position, [[0.0, 0.0], [1.0, 1.0]]);
         let mut camera = Camera::new(0.1, 0.0);
         for time in [0.0, 0.1] {
-            camera.watch(&snapshot::<2>(time, 20_000), std::iter::empty(), 0.0);
+            camera.take(&snapshot::<2>(time, 20_000), std::iter::empty(), 0.0);
         }
         assert_eq!(camera.motion.share, 0.25);
         let [first, second] = &camera.motion.frames[..] else { panic!("two pictures") };

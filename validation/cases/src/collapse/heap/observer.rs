@@ -35,7 +35,9 @@ impl CollapseObserver {
         let thickness = self.surveyor.observe(snapshot);
         let r = self.surveyor.half_width;
         let front = self.surveyor.collapse.front.last().copied().unwrap_or(0.0);
-        self.camera.watch(snapshot, thickness.iter().map(|(x, h)| (x * r, h * r)), front * r);
+        if self.camera.is_due(snapshot.time) {
+            self.camera.take(snapshot, thickness.iter().map(|(x, h)| (x * r, h * r)), front * r);
+        }
         let passed = self.times.iter().filter(|&&time| snapshot.time >= time).count();
         if passed > self.passed {
             self.passed = passed;
