@@ -6,8 +6,7 @@
 
 use super::super::divergence::Quantity;
 use super::super::{Failure, IncompressibleScene, Phase, Sediment, height_axis};
-use super::grid::ColumnGrid;
-use super::nodes::Nodes;
+use super::{ColumnGrid, Nodes};
 use crate::vector::Vector;
 
 /// A fluid particle and a node that exchange momentum.

@@ -1,8 +1,7 @@
 //! Pairs between two phases: candidates that stay valid while nothing moves far against its neighbours, and from them, in
 //! every step, the pairs within reach with their kernel values.
 
-use super::grid::Grid;
-use super::{LEAST_TASK, Periods};
+use super::{Grid, LEAST_TASK, Periods};
 use crate::kernel::Kernel;
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;

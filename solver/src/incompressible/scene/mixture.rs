@@ -1,7 +1,6 @@
 //! Check of scenes that use the mixture's continuity.
 
-use super::super::{Continuity, MeanFlux, PressureSource, SurfaceTreatment};
-use super::{IncompressibleScene, SedimentPressure};
+use super::super::{Continuity, IncompressibleScene, MeanFlux, PressureSource, SedimentPressure, SurfaceTreatment};
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 

@@ -1,7 +1,6 @@
 //! The sediment of an incompressible scene.
 
-use super::super::{ColumnNumerics, Stratification};
-use super::{ParticleSet, height_axis};
+use super::super::{ColumnNumerics, ParticleSet, Stratification, height_axis};
 use crate::material::dilatancy::Dilatancy;
 use crate::material::drag::DragLaw;
 use crate::material::rheology::Rheology;

@@ -2,8 +2,7 @@
 //!
 //! The two do not meet: at ε = 0.8 Ergun's K is 1.15 times that of Wen–Yu without slip and 3.67 times at high Reynolds numbers.
 
-use super::suspension::Suspension;
-use super::{ergun, wen_yu};
+use super::{Suspension, ergun, wen_yu};
 
 /// Voidage ε `[-]` below which grains are a bed.
 const BED_VOIDAGE: f64 = 0.8;

@@ -3,8 +3,7 @@
 //! Computed as ¾ (C_d R) φ μ/d² · ε^−2.65, whose limit without slip is 18 φ μ ε^−2.65/d². With the balance
 //! φ ε (ρ_s − ρ_f) g = K |u_r| grains in Stokes' regime settle at ε |u_r| = u_t ε^4.65: Richardson and Zaki's exponent.
 
-use super::schiller_naumann;
-use super::suspension::Suspension;
+use super::{Suspension, schiller_naumann};
 
 /// K `[kg/(m³ s)]`.
 #[inline]

@@ -1,7 +1,6 @@
 //! Continuity (3)(7) with the density–pressure coupling (27), the corrected velocity gradient (9), and, since all
 //! it needs is then at hand, the new stress of each particle.
 
-use super::PairData;
 use super::exchange::{Exchange, Inputs, Numbers};
 use super::field_diffusion::FieldDiffusion;
 use super::layout::Continuity;
@@ -16,7 +15,7 @@ use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real};
 use crate::parallel::prelude::*;
 use crate::weakly_compressible::energy::StressWork;
 use crate::weakly_compressible::terms::{continuity, density_coupling};
-use crate::weakly_compressible::{BLOCK, GradientUse, Model, NeighbourGroup, PairDiffusion, Particles};
+use crate::weakly_compressible::{BLOCK, GradientUse, Model, NeighbourGroup, PairData, PairDiffusion, Particles};
 
 /// Fields that are read of a particle, whatever is exchanged.
 struct Partner<V, const D: usize> {

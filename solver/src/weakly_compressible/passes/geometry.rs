@@ -1,7 +1,6 @@
 //! One pass over the neighbours for all that depends on positions and pressure: the moment matrix with its
 //! corrections, the corrected pressure gradient, and the stress as the divergence takes it.
 
-use super::PairData;
 use super::layout;
 use super::pair_weights::{Weighing, Weights, flush_tensor, flush_vector};
 use super::precision::Precision;
@@ -15,7 +14,7 @@ use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector, shear_rate};
 use crate::weakly_compressible::terms::kernel_correction::{corrections, corrections_and_eigenvalue};
 use crate::weakly_compressible::terms::{common_motion, field_diffusion};
-use crate::weakly_compressible::{BLOCK, Model, NeighbourGroup, Particles};
+use crate::weakly_compressible::{BLOCK, Model, NeighbourGroup, PairData, Particles};
 use std::ops::Range;
 
 struct Output<'a, const D: usize> {

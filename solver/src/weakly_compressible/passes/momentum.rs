@@ -2,7 +2,6 @@
 //! hourglass control, and the artificial stress of soil that holds together, each a term of its own, in one loop over flow and wall
 //! partners.
 
-use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
 use super::layout::Momentum;
 use super::pair_weights::{Weighing, Weights, flush_vector};
@@ -15,7 +14,7 @@ use crate::parallel::prelude::*;
 use crate::vector::{Vector, shear_rate};
 use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
-use crate::weakly_compressible::{BLOCK, Model, NeighbourGroup, Particles, ViscositySwitch};
+use crate::weakly_compressible::{BLOCK, Model, NeighbourGroup, PairData, Particles, ViscositySwitch};
 use std::ops::Range;
 
 /// Records of flow and walls in the layout of [`Momentum`].

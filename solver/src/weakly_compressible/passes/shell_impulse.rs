@@ -1,7 +1,6 @@
 //! Impulse that the wall particles of each facet wall give to the flow: their forces, pair by pair as the momentum pass takes them.
 //! Only scenes with facet walls come here.
 
-use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
 use super::layout::Momentum;
 use super::pair_weights::{Weighing, Weights, widened};
@@ -12,7 +11,7 @@ use crate::lanes::algebra::{load, scaled, store_vector};
 use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::{BLOCK, Model, NeighbourGroup, Particles};
+use crate::weakly_compressible::{BLOCK, Model, NeighbourGroup, PairData, Particles};
 
 use std::ops::Range;
 

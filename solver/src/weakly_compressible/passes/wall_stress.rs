@@ -1,14 +1,13 @@
 //! Pressure and stress of the wall particles, extrapolated from the flow: averages over the flow neighbours f of a wall
 //! particle w with the weights V_f W_wf. A wall far from any flow carries nothing.
 
-use super::PairData;
 use crate::lanes::algebra::{difference, dot, product, splat_vector, zero_tensor};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_tensors, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Tensor;
 use crate::weakly_compressible::WallTreatment;
 use crate::weakly_compressible::terms::wall_extrapolation as terms;
-use crate::weakly_compressible::{Model, NeighbourGroup, Particles};
+use crate::weakly_compressible::{Model, NeighbourGroup, PairData, Particles};
 
 /// Wall particles per block of the parallel loops over walls.
 pub(super) const BLOCK: usize = 64;

@@ -9,14 +9,13 @@
 //! Grains that come round an edge leave the wall behind it: nothing presses them on it, but a kernel that reaches over the edge would shear
 //! them. So a wall particle moves along with grains that cross its plane from behind, as one of a smooth wall does.
 
-use super::PairData;
 use super::wall_stress::BLOCK;
 use crate::lanes::algebra::{difference, dot, store_vector, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::terms::wall_extrapolation as terms;
-use crate::weakly_compressible::{Model, Particles};
+use crate::weakly_compressible::{Model, PairData, Particles};
 
 /// Velocity `[m/s]` of every wall particle: −d_w Σ V W v_f d_f / Σ V W d_f², the line through zero at the
 /// surface that fits the flow best, relative to the wall's own velocity. A smooth wall has the flow's mean velocity

@@ -19,8 +19,7 @@
 mod tests;
 
 use super::super::{IncompressibleScene, Phase, Sediment, Stratification, height_axis};
-use super::grid::ColumnGrid;
-use super::nodes::Nodes;
+use super::{ColumnGrid, Nodes};
 use crate::material::dilatancy::Dilatancy;
 use crate::material::drag::{Settling, SettlingTable};
 use crate::material::turbulence::eddy_viscosity;

@@ -9,8 +9,7 @@
 use super::{Mixture, Operators};
 use crate::incompressible::passes::drag_exchange::DragExchange;
 use crate::incompressible::phase::LatticeSums;
-use crate::incompressible::projection::pressure_poisson::PressurePoisson;
-use crate::incompressible::projection::{motion, residual};
+use crate::incompressible::projection::{PressurePoisson, motion, residual};
 use crate::incompressible::velocity_solve::VelocitySystem;
 use crate::incompressible::{Failure, IncompressibleScene, MeanFlux, Periods, Phase, Phases};
 use crate::vector::Vector;
