@@ -50,13 +50,8 @@ impl Stream {
             ("Shields number", self.shields_number(), SHIELDS_NUMBERS),
             ("depth over grain diameter", self.flow_depth / self.grain_diameter, RELATIVE_DEPTHS),
         ];
-        let outside = quantities.into_iter().find(|(_, value, range)| !range.contains(value));
-        outside.map(|(quantity, value, range)| OutsideBedLoad {
-            quantity,
-            value,
-            least: *range.start(),
-            most: *range.end(),
-        })
+        let found = quantities.into_iter().find(|(_, value, ends)| !ends.contains(value));
+        found.map(|(quantity, value, ends)| OutsideBedLoad { quantity, value, least: *ends.start(), most: *ends.end() })
     }
 
     /// Slope tanθ from which on this bed slides on its base, or where its grains are held `[-]`.
