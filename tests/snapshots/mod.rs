@@ -14,6 +14,7 @@ use bagnold_report::{Baseline, GateList, MetricKey, RemovedGates, description};
 use bagnold_validation::REGISTRY;
 use insta::comparator::Comparator;
 use insta::{Settings, Snapshot};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
@@ -103,16 +104,41 @@ fn measured_points_are_judged() {
     measured_points::assert_enough();
 }
 
+/// The baseline values of all cases.
+fn accepted(tier: Tier) -> Baseline {
+    let mut baseline = Baseline::default();
+    for case in REGISTRY.iter() {
+        let own = Baseline::read(&folder(), case.name(), tier).unwrap_or_else(|error| panic!("failed to {error}"));
+        baseline.extend(own);
+    }
+    baseline
+}
+
+fn gates(tier: Tier) -> GateList {
+    GateList::read(&folder(), tier).unwrap_or_else(|error| panic!("failed to {error}"))
+}
+
+/// Cases whose accepted values of the paper tier are older than the gates that judge them: `bagnold report --tier paper --accept
+/// --cases CASE` renews them, in minutes to hours each.
+const OLDER: [&str; 3] = ["bagnold", "bed-load", "column-planar"];
+
+#[test]
+fn accepted_values_are_no_older_than_their_gates_but_for_the_cases_named() {
+    let quick = accepted(Tier::Quick);
+    assert!(gates(Tier::Quick).older(&quick).is_empty(), "the quick tier is renewed with every change");
+    let paper = accepted(Tier::Paper);
+    let mut older = gates(Tier::Paper).older(&paper);
+    let judged: BTreeSet<&str> = paper.gates().map(|gate| &*gate.case).collect();
+    older.extend(quick.gates().map(|gate| &*gate.case).filter(|case| !judged.contains(case)));
+    let older: Vec<&str> = older.into_iter().collect();
+    assert_eq!(older, OLDER, "a case that is older now has to be simulated again, one that is not goes from the list");
+}
+
 #[test]
 fn no_gate_is_lost_without_a_reason() {
     let removed = RemovedGates::read(&folder()).unwrap_or_else(|error| panic!("failed to {error}"));
     for tier in [Tier::Quick, Tier::Paper] {
-        let mut baseline = Baseline::default();
-        for case in REGISTRY.iter() {
-            let own = Baseline::read(&folder(), case.name(), tier).unwrap_or_else(|error| panic!("failed to {error}"));
-            baseline.extend(own);
-        }
-        let list = GateList::read(&folder(), tier).unwrap_or_else(|error| panic!("failed to {error}"));
+        let (baseline, list) = (accepted(tier), gates(tier));
         let differences = list.differences(tier, &baseline, &removed);
         assert!(differences.is_empty(), "{tier} tier:\n{}", differences.join("\n"));
     }

@@ -65,6 +65,12 @@ impl GateList {
         moved.collect()
     }
 
+    /// Cases whose baseline values are older than what judges them: a gate has a limit that was never accepted.
+    pub fn older<'a>(&self, baseline: &'a Baseline) -> BTreeSet<&'a str> {
+        let is_older = |gate: &&MetricKey| self.gates.get(*gate).is_none_or(|limit| limit == UNKNOWN);
+        baseline.gates().filter(is_older).map(|gate| &*gate.case).collect()
+    }
+
     /// Writes the list, sorted.
     ///
     /// # Errors
