@@ -17,30 +17,18 @@ const FRICTIONS: &[f64] = &[0.9, 0.8, 0.5];
 
 /// All series.
 static ALL: [ErrorSeries; 5] = [
-    ErrorSeries {
-        name: "static-friction",
-        parameter: "friction of slow flow μ_s, with μ_2 − μ_s as it is",
-        factors: FRICTIONS,
-    },
-    ErrorSeries {
-        name: "friction-range",
-        parameter: "rate dependence of friction μ_2 − μ_s",
-        factors: &[0.9, 0.8, 0.5, 0.0],
-    },
-    ErrorSeries {
-        name: "reference-inertia",
-        parameter: "reference inertial number I_0",
-        factors: &[0.9, 0.8, 0.5, 0.1],
-    },
-    ErrorSeries { name: "yield-stress", parameter: "yield stress of the viscoplastic law", factors: FRICTIONS },
-    ErrorSeries {
-        name: "plastic-viscosity",
-        parameter: "plastic viscosity of the viscoplastic law",
-        factors: FRICTIONS,
-    },
+    ErrorSeries::new("static-friction", "friction of slow flow μ_s, with μ_2 − μ_s as it is", FRICTIONS),
+    ErrorSeries::new("friction-range", "rate dependence of friction μ_2 − μ_s", &[0.9, 0.8, 0.5, 0.0]),
+    ErrorSeries::new("reference-inertia", "reference inertial number I_0", &[0.9, 0.8, 0.5, 0.1]),
+    ErrorSeries::new("yield-stress", "yield stress of the viscoplastic law", FRICTIONS),
+    ErrorSeries::new("plastic-viscosity", "plastic viscosity of the viscoplastic law", FRICTIONS),
 ];
 
 impl ErrorSeries {
+    const fn new(name: &'static str, parameter: &'static str, factors: &'static [f64]) -> Self {
+        Self { name, parameter, factors }
+    }
+
     /// Series with this name.
     pub(super) fn find(name: &str) -> Option<&'static Self> {
         ALL.iter().find(|series| series.name == name)
