@@ -1,11 +1,9 @@
 //! Variant of a number: the run or runs that it is of, as named values in one fixed order, with one text.
 
-mod error;
 #[cfg(test)]
 mod tests;
 mod value;
 
-pub use error::VariantError;
 pub use value::Value;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -110,12 +108,12 @@ impl fmt::Display for Variant {
 }
 
 impl FromStr for Variant {
-    type Err = VariantError;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, VariantError> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let mut variant = Self::default();
         for part in text.split(',').filter(|_| !text.is_empty()) {
-            let refuse = |defect: String| Err(VariantError { text: text.to_owned(), defect });
+            let refuse = |defect: String| Err(format!("`{text}` must be `key=value,key=value`, but has {defect}"));
             let (key, value) = part.split_once('=').unwrap_or_default();
             if key.is_empty() || value.is_empty() || value.contains('=') {
                 return refuse(format!("the part `{part}`"));

@@ -77,9 +77,9 @@ fn file_names_are_letters_digits_points_and_dashes() {
 #[test]
 fn invalid_variant_is_refused_with_its_part() {
     for (text, part) in [("resolution", "resolution"), ("a=1,", ""), ("=1", "=1"), ("a=", "a="), ("a=1=2", "a=1=2")] {
-        let wrong = VariantError { text: text.to_owned(), defect: format!("the part `{part}`") };
+        let wrong = format!("`{text}` must be `key=value,key=value`, but has the part `{part}`");
         assert_eq!(text.parse::<Variant>(), Err(wrong));
     }
-    let wrong = VariantError { text: "a=1,a=2".to_owned(), defect: "`a` twice".to_owned() };
-    assert_eq!("a=1,a=2".parse::<Variant>(), Err(wrong));
+    let wrong = "`a=1,a=2` must be `key=value,key=value`, but has `a` twice";
+    assert_eq!("a=1,a=2".parse::<Variant>(), Err(wrong.to_owned()));
 }
