@@ -57,11 +57,7 @@ pub(crate) fn verify(command: &VerifyArguments, session: &mut Session<'_>) -> Re
         run.state_hash = expected;
     }
     if let Some(file) = &command.write {
-        let text = toml::to_string(&list).map_err(|error| FileError::Damaged {
-            file: file.clone(),
-            reason: error.to_string(),
-            remedy: "please report it".to_owned(),
-        })?;
+        let text = toml::to_string(&list).map_err(|error| FileError::damaged(file, error, "please report it"))?;
         write_whole(file, format!("{HEADER}{text}").as_bytes()).map_err(|error| FileError::unwritable(file, &error))?;
     }
     if differing.is_empty() {
@@ -79,11 +75,9 @@ fn read(file: Option<&Path>) -> Result<ShortRuns, DevError> {
         Some(file) => read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error))?,
         None => SHORT_RUNS.to_owned(),
     };
-    let list: ShortRuns = toml::from_str(&text).map_err(|error| FileError::Damaged {
-        file: path.to_owned(),
-        reason: error.message().to_owned(),
-        remedy: "write [[runs]] with case, settings and state_hash".to_owned(),
-    })?;
+    let remedy = "write [[runs]] with case, settings and state_hash";
+    let list: ShortRuns =
+        toml::from_str(&text).map_err(|error: toml::de::Error| FileError::damaged(path, error.message(), remedy))?;
     if list.runs.is_empty() {
         let error = FieldError::finding("runs", "no run", "add a `[[runs]]` table");
         return Err(ParameterError::from(error.in_file(path)).into());

@@ -2,9 +2,9 @@
 
 use crate::case::ParameterError;
 use crate::figure::FigureError;
-use crate::input::{FieldError, read_text};
+use crate::input::FieldError;
+pub(super) use crate::output::read_if_there;
 use crate::output::{FileError, FolderError};
-use std::io::ErrorKind;
 use std::path::Path;
 
 /// Reason why a report or a run is not finished.
@@ -30,19 +30,9 @@ pub enum ReportError {
     Template(#[from] minijinja::Error),
 }
 
-/// Text of a committed file of at most a number of bytes; none where there is no file.
-pub(super) fn read_if_there(path: &Path, most: u64) -> Result<Option<String>, ParameterError> {
-    match read_text(path, most) {
-        Ok(text) => Ok(Some(text)),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(FileError::unreadable(path, &error).into()),
-    }
-}
-
 /// A committed file with wrong content.
 pub(super) fn damaged(path: &Path, reason: String) -> ParameterError {
-    let remedy = "correct the file, or restore it from version control".to_owned();
-    FileError::Damaged { file: path.to_owned(), reason, remedy }.into()
+    FileError::damaged(path, reason, "correct the file, or restore it from version control").into()
 }
 
 /// Refuses a case whose name would not stay inside a folder.

@@ -1,13 +1,13 @@
 //! A folder that belongs to one plan: begun once, continued when asked, never mixed with another.
 
-use super::error::{FileError, FolderError};
+use super::error::{FileError, FolderError, read_if_there};
 use super::folder::refuse_foreign;
 use super::lock::FolderLock;
 use super::whole::write_whole;
-use crate::input::{STORED, read_text};
+use crate::input::STORED;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::io::{Error, ErrorKind};
+use std::io::Error;
 use std::path::Path;
 
 /// Owner of a folder, such as a sweep, kept in a file inside the folder.
@@ -50,15 +50,9 @@ pub fn claim<O: Owner>(folder: &Path, owner: &O, resume: bool) -> Result<FolderL
 /// A marker that cannot be read or is damaged.
 pub fn owner_of<O: Owner>(folder: &Path) -> Result<Option<O>, FileError> {
     let marker = folder.join(O::MARKER);
-    let text = match read_text(&marker, STORED) {
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        text => text.map_err(|error| FileError::unreadable(&marker, &error))?,
-    };
-    serde_json::from_str(&text).map(Some).map_err(|error| FileError::Damaged {
-        file: marker,
-        reason: error.to_string(),
-        remedy: format!("begin the {} again with another --out", O::WHAT),
-    })
+    let Some(text) = read_if_there(&marker, STORED)? else { return Ok(None) };
+    let remedy = format!("begin the {} again with another --out", O::WHAT);
+    serde_json::from_str(&text).map(Some).map_err(|error| FileError::damaged(&marker, error, &remedy))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Errors of files and folders.
 
-use crate::input::shown;
+use crate::input::{read_text, shown};
 use std::path::{Path, PathBuf};
 
 /// A file that cannot be read, understood or written.
@@ -16,14 +16,9 @@ pub enum FileError {
         /// Instruction to the user.
         remedy: &'static str,
     },
-    /// Files cannot be written.
-    #[error("{}: cannot be written ({reason}); choose a folder that you may write to with --out", shown(.path))]
-    Unwritable {
-        /// File or folder.
-        path: PathBuf,
-        /// The system's reason.
-        reason: String,
-    },
+    /// A file or folder cannot be written, with the system's reason.
+    #[error("{}: cannot be written ({}); choose a folder that you may write to with --out", shown(.0), .1)]
+    Unwritable(PathBuf, String),
     /// A file of ours cannot be understood.
     #[error("{}: damaged ({reason}); {remedy}", shown(.file))]
     Damaged {
@@ -49,7 +44,24 @@ impl FileError {
 
     /// A file or folder that cannot be written, with the system's reason.
     pub fn unwritable(path: &Path, error: &std::io::Error) -> Self {
-        Self::Unwritable { path: path.to_owned(), reason: reason(error) }
+        Self::Unwritable(path.to_owned(), reason(error))
+    }
+
+    /// A file of ours that cannot be understood.
+    pub fn damaged(file: &Path, reason: impl std::fmt::Display, remedy: &str) -> Self {
+        Self::Damaged { file: file.to_owned(), reason: reason.to_string(), remedy: remedy.to_owned() }
+    }
+}
+
+/// Text of a file of at most a number of bytes; none where there is no file.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn read_if_there(file: &Path, most: u64) -> Result<Option<String>, FileError> {
+    match read_text(file, most) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(FileError::unreadable(file, &error)),
     }
 }
 

@@ -11,7 +11,7 @@ mod warning;
 mod whole;
 
 pub use claim::{Owner, claim, owner_of};
-pub use error::{FileError, FolderError, reason};
+pub use error::{FileError, FolderError, read_if_there, reason};
 pub use folder::OutputFolder;
 pub use lock::FolderLock;
 pub(crate) use sealed::{Refused, SealedFormat};

@@ -147,7 +147,7 @@ fn text(file: &Path) -> Result<String, FileError> {
 }
 
 fn damaged(file: &Path, reason: String) -> FileError {
-    FileError::Damaged { file: file.to_owned(), reason, remedy: "write the folder again with `bagnold run`".to_owned() }
+    FileError::damaged(file, reason, "write the folder again with `bagnold run`")
 }
 
 fn document(file: &Path) -> Result<MetricsDocument, FileError> {

@@ -4,7 +4,7 @@
 use super::folder::SweepFolder;
 use crate::ToolError;
 use crate::input::{WRITTEN_BY_HAND, read_text};
-use crate::output::{FileError, write_whole};
+use crate::output::{FileError, read_if_there, write_whole};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::ErrorKind;
@@ -126,15 +126,9 @@ fn queued(arrays: &BTreeMap<String, usize>) -> Result<BTreeSet<usize>, ToolError
 /// A file that is damaged or cannot be read.
 pub fn last_request(sweep: &SweepFolder) -> Result<SlurmRequest, FileError> {
     let file = sweep.path().join("slurm/request.json");
-    let text = match read_text(&file, WRITTEN_BY_HAND) {
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(SlurmRequest::default()),
-        text => text.map_err(|error| FileError::unreadable(&file, &error))?,
-    };
-    serde_json::from_str(&text).map_err(|error| FileError::Damaged {
-        file,
-        reason: error.to_string(),
-        remedy: "remove it when `squeue` shows no job of this sweep".to_owned(),
-    })
+    let Some(text) = read_if_there(&file, WRITTEN_BY_HAND)? else { return Ok(SlurmRequest::default()) };
+    let remedy = "remove it when `squeue` shows no job of this sweep";
+    serde_json::from_str(&text).map_err(|error| FileError::damaged(&file, error, remedy))
 }
 
 /// Runs one of Slurm's commands and returns what it prints.
