@@ -44,22 +44,16 @@ pub enum Change {
         /// Largest change that is tolerated, in the metric's unit.
         tolerance: f64,
     },
-    /// The baseline is in another unit: it must be taken again.
-    UnitChanged {
-        /// The baseline's unit.
-        unit: String,
-    },
-    /// The value is within its tolerance, but its gate has changed sides, or has come or gone.
-    VerdictChanged {
-        /// The baseline's verdict.
-        verdict: Verdict,
-    },
+    /// The baseline is in another unit, this one: it must be taken again.
+    UnitChanged(String),
+    /// The value is within its tolerance, but its gate has changed sides from this verdict, or has come or gone.
+    VerdictChanged(Verdict),
 }
 
 impl Change {
     /// Whether the value has moved: by more than it may, to another unit or to the other side of its gate.
     pub fn has_moved(&self) -> bool {
-        matches!(self, Self::Moved { .. } | Self::UnitChanged { .. } | Self::VerdictChanged { .. })
+        matches!(self, Self::Moved { .. } | Self::UnitChanged(_) | Self::VerdictChanged(_))
     }
 
     /// Change of the value in tolerances `[-]`; infinite if it cannot be compared, none if it is new.
@@ -71,7 +65,7 @@ impl Change {
                 let moved = change.abs() / tolerance;
                 Some(if moved.is_nan() { f64::INFINITY } else { moved })
             }
-            Self::UnitChanged { .. } | Self::VerdictChanged { .. } => Some(f64::INFINITY),
+            Self::UnitChanged(_) | Self::VerdictChanged(_) => Some(f64::INFINITY),
         }
     }
 }
@@ -193,7 +187,7 @@ impl Baseline {
     pub fn change(&self, case: &str, metric: &Metric) -> Change {
         let Some(entry) = self.values.get(&MetricKey::of(case, metric)) else { return Change::New };
         if entry.unit != metric.unit {
-            return Change::UnitChanged { unit: entry.unit.clone() };
+            return Change::UnitChanged(entry.unit.clone());
         }
         let baseline = entry.value;
         let change = metric.value - baseline;
@@ -203,7 +197,7 @@ impl Baseline {
             return Change::Moved { change, baseline, tolerance };
         }
         if entry.verdict != metric.verdict() {
-            return Change::VerdictChanged { verdict: entry.verdict };
+            return Change::VerdictChanged(entry.verdict);
         }
         Change::Unchanged { change: if same { 0.0 } else { change }, baseline, tolerance }
     }
@@ -214,8 +208,8 @@ impl Baseline {
             let what = match self.change(case, metric) {
                 Change::Unchanged { .. } => return None,
                 Change::New => "is not in the baseline".to_owned(),
-                Change::UnitChanged { unit } => format!("was in {unit}, is in {}", metric.unit),
-                Change::VerdictChanged { verdict } => {
+                Change::UnitChanged(unit) => format!("was in {unit}, is in {}", metric.unit),
+                Change::VerdictChanged(verdict) => {
                     let now = metric.verdict().word();
                     format!("is within its tolerance, but the verdict was {}, is {now}", verdict.word())
                 }

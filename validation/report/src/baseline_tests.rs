@@ -71,7 +71,7 @@ fn a_value_that_is_not_a_number_moves_only_by_becoming_one() {
 fn a_gate_that_changes_sides_within_the_tolerance_is_a_change() {
     let gated = |value: f64| metric("velocity_l2", value).gated(Limit::AtMost(1.0), "for the test");
     let baseline = Baseline::of("film", &[gated(1.0)]);
-    assert_eq!(baseline.change("film", &gated(1.001)), Change::VerdictChanged { verdict: Verdict::Pass });
+    assert_eq!(baseline.change("film", &gated(1.001)), Change::VerdictChanged(Verdict::Pass));
     assert!(baseline.change("film", &metric("velocity_l2", 1.0)).has_moved(), "the gate has gone");
 }
 

@@ -82,8 +82,8 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Opti
             let (value, was) = value_and_baseline(metric, *baseline);
             (value, format!("{was} ± {}", two_digits(*tolerance)))
         }
-        Change::UnitChanged { unit } => (value, format!("in {unit}")),
-        Change::VerdictChanged { verdict } => (value, format!("{}, now {}", verdict.word(), metric.verdict().word())),
+        Change::UnitChanged(unit) => (value, format!("in {unit}")),
+        Change::VerdictChanged(verdict) => (value, format!("{}, now {}", verdict.word(), metric.verdict().word())),
     };
     Some(MovedValue {
         tolerances: judged.change.in_tolerances()?,

@@ -92,8 +92,8 @@ pub(super) fn statement(judged: &JudgedMetric<'_>) -> String {
             let (value, was) = value_and_baseline(metric, *baseline);
             format!("{value}, baseline {was} ± {}", two_digits(*tolerance))
         }
-        (Rank::Moved, _, Change::UnitChanged { unit }) => format!("{value}, baseline in {unit}"),
-        (Rank::Moved, _, Change::VerdictChanged { verdict }) => format!("{value}, verdict was {}", verdict.word()),
+        (Rank::Moved, _, Change::UnitChanged(unit)) => format!("{value}, baseline in {unit}"),
+        (Rank::Moved, _, Change::VerdictChanged(verdict)) => format!("{value}, verdict was {}", verdict.word()),
         (_, Some(gate), _) => format!("{value}, limit {}", limit(gate.limit, &metric.unit)),
         _ => value,
     }
@@ -174,8 +174,8 @@ fn change(judged: &JudgedMetric<'_>) -> (VerdictMark, String, String) {
             (VerdictMark { word: "unchanged", ..VerdictMark::PASS }, signed(*change), relative(*change, *baseline))
         }
         Change::Moved { change, baseline, .. } => (VerdictMark::MOVED, signed(*change), relative(*change, *baseline)),
-        Change::UnitChanged { unit } => (VerdictMark::MOVED, format!("unit was {unit}"), String::new()),
-        Change::VerdictChanged { verdict } => {
+        Change::UnitChanged(unit) => (VerdictMark::MOVED, format!("unit was {unit}"), String::new()),
+        Change::VerdictChanged(verdict) => {
             (VerdictMark::MOVED, format!("verdict was {}", verdict.word()), String::new())
         }
     }

@@ -20,22 +20,16 @@ pub enum ProgramError {
     /// A sweep, a calibration, a judgement or a comparison is refused.
     #[error(transparent)]
     Tool(#[from] ToolError),
-    /// Standard output cannot be written.
+    /// Standard output cannot be written, with the system's reason.
     #[error(
-        "standard output: cannot be written ({reason}); free space, or redirect it; the folders of results were written"
+        "standard output: cannot be written ({0}); free space, or redirect it; the folders of results were written"
     )]
-    Output {
-        /// The system's reason.
-        reason: String,
-    },
-    /// Warnings that `--deny-warnings` does not let pass.
+    Output(String),
+    /// Warnings that `--deny-warnings` does not let pass, by their number.
     #[error(
-        "`--deny-warnings` rejects the input because of {count} of the warnings above; correct the input, or leave the option out"
+        "`--deny-warnings` rejects the input because of {0} of the warnings above; correct the input, or leave the option out"
     )]
-    Cautions {
-        /// Their number.
-        count: usize,
-    },
+    Cautions(usize),
     /// A report or a run that is not finished.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -44,6 +38,6 @@ pub enum ProgramError {
 impl ProgramError {
     /// Standard output that cannot be written, with the system's reason.
     pub(super) fn unprintable(error: &std::io::Error) -> Self {
-        Self::Output { reason: reason(error) }
+        Self::Output(reason(error))
     }
 }

@@ -78,7 +78,7 @@ pub fn warn_of_fast(results: &[CaseResult]) {
 /// Rejects an input that was warned of, if the user asks for that.
 fn reject_warnings(is_denied: bool) -> Result<(), ProgramError> {
     let count = cautions().len();
-    if is_denied && count > 0 { Err(ProgramError::Cautions { count }) } else { Ok(()) }
+    if is_denied && count > 0 { Err(ProgramError::Cautions(count)) } else { Ok(()) }
 }
 
 /// Prints the expected cost of the runs of a command, and simulates them with a progress bar.

@@ -14,19 +14,14 @@ pub enum ToolError {
     /// Folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),
-    /// A plan, a folder or a program does not give what is needed of it as a whole.
-    #[error("{}: {reason}", shown(.place))]
-    Place {
-        /// File or folder, or name of the program.
-        place: PathBuf,
-        /// Defect and remedy.
-        reason: String,
-    },
+    /// A plan, a folder or a program, given by its name, does not give what is needed of it as a whole: defect and remedy.
+    #[error("{}: {}", shown(.0), .1)]
+    Place(PathBuf, String),
 }
 
 impl ToolError {
     pub(crate) fn at(place: &Path, reason: String) -> Self {
-        Self::Place { place: place.to_owned(), reason }
+        Self::Place(place.to_owned(), reason)
     }
 }
 

@@ -106,7 +106,7 @@ mod tests {
         std::fs::write(root.path().join("thesis.tex"), "years of work").expect("writable");
         for resume in [false, true] {
             let refused = claim(root.path(), &plan(2, "a"), resume);
-            assert!(matches!(refused, Err(FolderError::Foreign { .. })), "{refused:?}");
+            assert!(matches!(refused, Err(FolderError::Foreign(_))), "{refused:?}");
         }
         assert!(!root.path().join(Plan::MARKER).exists());
     }

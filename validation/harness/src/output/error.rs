@@ -87,11 +87,8 @@ pub enum FolderError {
         by_program: bool,
     },
     /// The output folder holds files that are not Bagnold's.
-    #[error("output folder {}: not empty and not written by bagnold, so nothing was changed; name an empty or new folder with --out", shown(.folder))]
-    Foreign {
-        /// Output folder that cannot be used.
-        folder: PathBuf,
-    },
+    #[error("output folder {}: not empty and not written by bagnold, so nothing was changed; name an empty or new folder with --out", shown(.0))]
+    Foreign(PathBuf),
     /// Another command is writing the folder.
     #[error("output folder {}: in use by another bagnold command that is running{by}, so nothing was changed; wait until it has ended, or name another folder with --out", shown(.folder))]
     Locked {

@@ -114,7 +114,7 @@ pub(super) fn refuse_foreign(folder: &Path, marker: &str) -> Result<(), FolderEr
     let has_foreign = entries.any(|entry| entry.is_ok_and(|entry| !is_own(&entry.file_name().to_string_lossy())));
     // looked for after the entries were read: another command may have put them there meanwhile, and marks before it does
     if has_foreign && !folder.join(marker).is_file() {
-        return Err(FolderError::Foreign { folder: folder.to_owned() });
+        return Err(FolderError::Foreign(folder.to_owned()));
     }
     Ok(())
 }
