@@ -72,7 +72,7 @@ fn of_solver(
     }
     let scope: Scope = mutations.scope(case);
     let right = program.run("0", &scope, Duration::MAX);
-    let right = right.map_err(|reason| DevError::Trial { case: case.to_owned(), reason })?;
+    let right = right.map_err(|reason| DevError::trial(case, &reason))?;
     let limit = Duration::from_secs_f64(10.0 * right.wall_seconds + PATIENCE);
     let bar = CountBar::new("controls", errors.len(), 0, quiet);
     share_out(errors, |(control, number): (&Control, usize)| -> Result<_, DevError> {

@@ -19,7 +19,7 @@ use bagnold_validation::REGISTRY;
 use arguments::{Arguments, DevCommand};
 use bagnold_validation::cli::{Exit, Session, answered, conduct, in_pool};
 use clap::Parser;
-use error::DevError;
+pub use error::DevError;
 use std::process::ExitCode;
 
 #[cfg(test)]

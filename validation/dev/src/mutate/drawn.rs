@@ -100,7 +100,7 @@ fn traced(program: &Program, places: &[usize], registry: Registry) -> Result<BTr
         let scope = Scope { case, settings: Vec::new() };
         let right = program.run(&file.to_string_lossy(), &scope, Duration::MAX);
         going_on()?;
-        let right = right.map_err(|reason| DevError::Trial { case: scope.case.clone(), reason })?;
+        let right = right.map_err(|reason| DevError::trial(&scope.case, &reason))?;
         let numbers = std::fs::read_to_string(&file).unwrap_or_default();
         let place = |line: &str| places.get(line.parse::<usize>().ok()?.checked_sub(1)?).copied();
         let reached: BTreeSet<usize> = numbers.lines().filter_map(place).collect();

@@ -77,11 +77,14 @@ pub(crate) fn mutate(command: &MutateArguments, session: &mut Session<'_>) -> Re
 }
 
 pub(crate) fn sources() -> Result<PathBuf, DevError> {
-    workspace().map(Path::to_owned).ok_or(DevError::NoSources)
+    let missing = "failed to find the sources that mutations change; work in a checkout of bagnold";
+    workspace().map(Path::to_owned).ok_or_else(|| DevError::Stopped(missing.to_owned()))
 }
 
 pub(crate) fn named<'a>(mutations: &'a Mutations, name: &str) -> Result<&'a Mutation, DevError> {
-    mutations.find(name).ok_or_else(|| DevError::UnknownError { name: name.to_owned() })
+    let unknown =
+        || format!("`{name}` is not among the mutations; `cargo run -p bagnold-dev -- mutate list` names them");
+    mutations.find(name).ok_or_else(|| DevError::Stopped(unknown()))
 }
 
 /// Tries the errors asked for, writes the findings and prints them.
@@ -129,7 +132,7 @@ fn findings(
 ) -> Result<Vec<MutationOutcome>, DevError> {
     let right = |scope: &Scope| {
         let sighting = program.run("0", scope, Duration::MAX);
-        sighting.map_err(|reason| DevError::Trial { case: scope.case.clone(), reason })
+        sighting.map_err(|reason| DevError::trial(&scope.case, &reason))
     };
     let wrong = |error: &Mutation, right: &[(&Scope, &MutantRun)]| {
         let finding = program.try_error(error, mutations.number(error), right, PATIENCE);

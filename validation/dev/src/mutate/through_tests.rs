@@ -21,7 +21,10 @@ pub(super) fn findings(
         return Ok(Vec::new());
     }
     if let Some(error) = errors.iter().find(|error| error.tests.is_empty()) {
-        return Err(DevError::ErrorWithoutTests { name: error.name.clone() });
+        let (name, remedy) = (&error.name, "give it `tests` in validation/dev/mutations.toml, or try it in a case");
+        return Err(DevError::Stopped(format!(
+            "mutation `{name}` names no test to run; {remedy}: `cargo run -p bagnold-dev -- mutate trial {name} CASE`"
+        )));
     }
     let named = errors.iter().flat_map(|error| &error.tests);
     let targets: BTreeSet<TestTarget> = named.filter_map(|test| TestTarget::of(test)).collect();
@@ -32,7 +35,8 @@ pub(super) fn findings(
     let right = |test: &String| {
         let started = Instant::now();
         let outcome = run(program, &programs, test, 0, Duration::MAX);
-        outcome.map_err(|reason| DevError::TestFails { test: test.clone(), reason })?;
+        let unsound = |reason| format!("test {test} fails without an error as well: {reason}; mend it first");
+        outcome.map_err(|reason: String| DevError::Stopped(unsound(reason)))?;
         Ok(started.elapsed())
     };
     let wrong = |error: &Mutation, right: &[(&String, &Duration)]| {

@@ -2,6 +2,7 @@
 
 use super::record::{FILE, Mutations};
 use crate::case::ParameterError;
+use crate::error::DevError;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::FileError;
 use serde_json::Value;
@@ -64,40 +65,11 @@ pub(super) const BUILD: [&str; 3] = ["build", "--bin", "bagnold-dev"];
 /// The copy says nothing of what a mutation makes odd, such as a comparison that always holds.
 const NO_LINTS: &str = "#![allow(warnings, arithmetic_overflow, unconditional_panic, overflowing_literals)]\n";
 
-/// Error in making the copy of the program.
-#[derive(Debug, thiserror::Error)]
-pub enum CopyError {
-    /// The records, or a text that the sources do not have once.
-    #[error(transparent)]
-    Record(#[from] ParameterError),
-    /// A file of the copy.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// A source in which no expression can be found.
-    #[error("{}:{line}: {message}; mutations by rule need sources that compile", .file.display())]
-    Syntax {
-        /// Source file with the fault.
-        file: PathBuf,
-        /// Line of the fault, from 1.
-        line: usize,
-        /// Message of the parser.
-        message: String,
-    },
-    /// The compiler refuses it.
-    #[error("failed to build a copy of the program with all mutations in {folder}: {said}")]
-    Build {
-        /// Folder of the copy.
-        folder: PathBuf,
-        /// The first of what the compiler said.
-        said: String,
-    },
-}
-
 /// Makes or renews the copy below `target/mutations` of a checkout and builds it; returns the program.
 ///
 /// # Errors
 /// A text that does not stand once in its file, files that cannot be written, a copy that does not compile.
-pub fn build(workspace: &Path, mutations: &Mutations) -> Result<PathBuf, CopyError> {
+pub fn build(workspace: &Path, mutations: &Mutations) -> Result<PathBuf, DevError> {
     let copy = SourceCopy::renew(workspace, mutations)?;
     copy.compile(&BUILD)?.whole(&copy)?;
     Ok(copy.program())
@@ -155,7 +127,7 @@ pub struct TestProgram {
 ///
 /// # Errors
 /// Tests that do not compile.
-pub fn build_tests(workspace: &Path, targets: &[TestTarget]) -> Result<Vec<TestProgram>, CopyError> {
+pub fn build_tests(workspace: &Path, targets: &[TestTarget]) -> Result<Vec<TestProgram>, DevError> {
     let copy = SourceCopy::at(workspace);
     let mut arguments = vec!["test", "--no-run"];
     for target in targets {
@@ -199,13 +171,13 @@ impl Compilation {
 
     /// # Errors
     /// Errors of the compiler.
-    pub(super) fn whole(self, copy: &SourceCopy) -> Result<Self, CopyError> {
+    pub(super) fn whole(self, copy: &SourceCopy) -> Result<Self, DevError> {
         if self.succeeded {
             return Ok(self);
         }
         let first = self.errors().find_map(|error| error["rendered"].as_str()).unwrap_or(&self.said);
         let said = first.lines().take(12).collect::<Vec<_>>().join("\n");
-        Err(CopyError::Build { folder: copy.tree.clone(), said })
+        Err(copy.unbuilt(&said))
     }
 }
 
@@ -215,10 +187,10 @@ impl SourceCopy {
         Self { tree: below.join("tree"), target: below.join("build") }
     }
 
-    pub(super) fn renew(workspace: &Path, mutations: &Mutations) -> Result<Self, CopyError> {
+    pub(super) fn renew(workspace: &Path, mutations: &Mutations) -> Result<Self, DevError> {
         let copy = Self::at(workspace);
         let changed = changed_sources(workspace, mutations)?;
-        let unwritable = |error: io::Error| CopyError::File(FileError::unwritable(&copy.tree, &error));
+        let unwritable = |error: io::Error| DevError::File(FileError::unwritable(&copy.tree, &error));
         std::fs::create_dir_all(&copy.tree).map_err(unwritable)?;
         for name in SOURCES {
             mirror(&workspace.join(name), &copy.tree.join(name), &changed, workspace).map_err(unwritable)?;
@@ -226,19 +198,22 @@ impl SourceCopy {
         Ok(copy)
     }
 
+    /// The copy that is not built, with the first of what was said to that.
+    fn unbuilt(&self, said: &str) -> DevError {
+        let folder = self.tree.display();
+        DevError::Stopped(format!("failed to build a copy of the program with all mutations in {folder}: {said}"))
+    }
+
     pub(super) fn program(&self) -> PathBuf {
         self.target.join("debug").join(format!("bagnold-dev{}", std::env::consts::EXE_SUFFIX))
     }
 
-    pub(super) fn compile(&self, arguments: &[&str]) -> Result<Compilation, CopyError> {
+    pub(super) fn compile(&self, arguments: &[&str]) -> Result<Compilation, DevError> {
         let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let mut command = Command::new(program);
         command.args(arguments).args(["--quiet", "--locked", "--message-format=json", "--manifest-path"]);
         command.arg(self.tree.join("Cargo.toml")).arg("--target-dir").arg(&self.target).stdin(Stdio::null());
-        let done = command.output().map_err(|error| CopyError::Build {
-            folder: self.tree.clone(),
-            said: format!("cargo cannot be started ({error})"),
-        })?;
+        let done = command.output().map_err(|error| self.unbuilt(&format!("cargo cannot be started ({error})")))?;
         let messages = String::from_utf8_lossy(&done.stdout);
         Ok(Compilation {
             succeeded: done.status.success(),
@@ -270,7 +245,7 @@ impl MutatedExpression {
 }
 
 /// The sources that differ in the copy, by their paths in the checkout.
-fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<PathBuf, String>, CopyError> {
+fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<PathBuf, String>, DevError> {
     let read = |path: &Path| {
         let file = workspace.join(path);
         read_text(&file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(&file, &error))
@@ -286,7 +261,7 @@ fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<P
             let (text, choices) = sources.get_mut(&path).expect("it was just read");
             let refused = |value: String, rule: &str, remedy: &str| {
                 let error = FieldError::new(&format!("mutation \"{}\"", mutation.name), value, rule, remedy);
-                CopyError::from(ParameterError::from(error.in_file(&workspace.join(FILE))))
+                DevError::from(ParameterError::from(error.in_file(&workspace.join(FILE))))
             };
             let needle = place.needle();
             let found: Vec<usize> = text.match_indices(&needle).map(|(start, _)| start).collect();

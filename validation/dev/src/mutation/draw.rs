@@ -1,9 +1,10 @@
 //! A random draw of mutations by rule, of those that compile, and what has been found of it so far.
 
-use super::copy::{BUILD, CopyError, SourceCopy, beginning};
+use super::copy::{BUILD, SourceCopy, beginning};
 use super::generator::{Candidate, candidates};
 use super::record::{Mutation, Mutations};
 use super::{MutantRun, MutationOutcome};
+use crate::error::DevError;
 use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::observation::state_hash;
 use crate::output::{FileError, write_whole};
@@ -27,15 +28,15 @@ impl Draw {
     ///
     /// # Errors
     /// A source that cannot be read, or is no Rust.
-    pub fn new(workspace: &Path, seed: u64) -> Result<Self, CopyError> {
+    pub fn new(workspace: &Path, seed: u64) -> Result<Self, DevError> {
         let root = workspace.join("solver").join("src");
         let sources = sources(&root)?;
         let mut order = Vec::new();
         for (file, text) in &sources {
-            order.extend(candidates(file, text).map_err(|error| CopyError::Syntax {
-                file: root.join(file),
-                line: error.span().start().line,
-                message: error.to_string(),
+            order.extend(candidates(file, text).map_err(|error| {
+                let (file, line) = (root.join(file), error.span().start().line);
+                let remedy = "mutations by rule need sources that compile";
+                DevError::Stopped(format!("{}:{line}: {error}; {remedy}", file.display()))
             })?);
         }
         Random::new(seed).shuffle(&mut order);
@@ -79,7 +80,7 @@ impl Draw {
         count: usize,
         rejected: &mut BTreeSet<usize>,
         tell: &dyn Fn(&str),
-    ) -> Result<(Vec<usize>, PathBuf), CopyError> {
+    ) -> Result<(Vec<usize>, PathBuf), DevError> {
         loop {
             let places = self.first(count, rejected);
             let list: Vec<Mutation> = places.iter().map(|place| self.mutation(*place)).collect();

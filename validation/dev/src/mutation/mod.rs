@@ -21,7 +21,7 @@ mod page;
 mod record;
 mod trial;
 
-pub use copy::{CHOICE, CopyError, TestProgram, TestTarget, build, build_tests};
+pub use copy::{CHOICE, TestProgram, TestTarget, build, build_tests};
 pub use draw::{Draw, DrawProgress, TracedCase};
 pub use judgement::{Broken, Detection, MutationComparison, MutationOutcome, holds, judge, shares_caught, tally};
 pub use page::{drawn_line, drawn_page, page, table};
