@@ -1,12 +1,13 @@
 //! Speed of this machine, from a flow that takes a moment.
 
+use super::profile::processor_seconds;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
-use rustix::time::{ClockId, clock_gettime};
+use rustix::time::ClockId;
 use std::f64::consts::TAU;
 
 /// Rows of the flow.
@@ -32,22 +33,16 @@ fn measure() -> Option<f64> {
     let law = Rheology::Newtonian(Newtonian { viscosity: 50.0 });
     let domain = Domain::periodic([0.0; 2], [1.0; 2]);
     let mut simulation = Simulation::new(Scene { domain, ..Scene::unbounded(flow, spacing, liquid, law) }).ok()?;
-    let begun = processor_seconds();
+    let begun = processor_seconds(ClockId::ThreadCPUTime);
     let mut fastest = f64::INFINITY;
-    while processor_seconds() - begun < ALLOWED {
-        let last = processor_seconds();
+    while processor_seconds(ClockId::ThreadCPUTime) - begun < ALLOWED {
+        let last = processor_seconds(ClockId::ThreadCPUTime);
         for _ in 0..STEPS {
             simulation.step().ok()?;
         }
-        fastest = fastest.min(processor_seconds() - last);
+        fastest = fastest.min(processor_seconds(ClockId::ThreadCPUTime) - last);
     }
     Some(1e6 * fastest / (STEPS * ROWS * ROWS) as f64).filter(|each| *each > 0.0 && each.is_finite())
-}
-
-/// Time that this thread has worked `[s]`.
-fn processor_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
 #[cfg(test)]

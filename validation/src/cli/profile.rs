@@ -19,12 +19,12 @@ pub(super) struct StageTimer {
 impl StageTimer {
     pub(super) fn begin() -> Self {
         let now = Instant::now();
-        Self { begun: now, last: now, processor: processor_seconds(), stages: Vec::new() }
+        Self { begun: now, last: now, processor: processor_seconds(ClockId::ProcessCPUTime), stages: Vec::new() }
     }
 
     /// Notes that a stage is over.
     pub(super) fn over(&mut self, stage: &'static str) {
-        let (now, processor) = (Instant::now(), processor_seconds());
+        let (now, processor) = (Instant::now(), processor_seconds(ClockId::ProcessCPUTime));
         self.stages.push((stage, (now - self.last).as_secs_f64(), processor - self.processor));
         (self.last, self.processor) = (now, processor);
     }
@@ -68,9 +68,9 @@ fn runs(results: &[CaseResult]) -> String {
     text
 }
 
-/// Time that the processors have worked for this program `[s]`.
-fn processor_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ProcessCPUTime);
+/// Time that the processors have worked `[s]`: for this program or this thread, by the clock.
+pub(super) fn processor_seconds(clock: ClockId) -> f64 {
+    let time = clock_gettime(clock);
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
@@ -89,7 +89,7 @@ mod tests {
     fn stages_and_memory_are_told() {
         let mut profile = StageTimer::begin();
         let mut sum = 0.0_f64;
-        while processor_seconds() - profile.processor < 0.02 {
+        while processor_seconds(ClockId::ProcessCPUTime) - profile.processor < 0.02 {
             sum += (0..1000).map(f64::from).map(f64::sin).sum::<f64>();
         }
         assert!(sum.is_finite());

@@ -44,7 +44,8 @@ fn begin(file: &Path, command: &SweepArguments, session: &mut Session<'_>) -> Re
                 session.say(&format!("all {} runs are finished already; {ANEW}\n", manifest.entries.len()));
                 return finish(&sweep, session);
             }
-            let watch = SweepBar::new(&sweep, session.quiet);
+            let all = manifest.entries.len();
+            let watch = CountBar::new("runs", all, all - sweep.missing().len(), session.quiet);
             run_locally(&sweep, session.registry, &command.work.open_store(), &watch)?;
             drop(watch);
             finish(&sweep, session)
@@ -117,25 +118,15 @@ fn finish(sweep: &SweepFolder, session: &mut Session<'_>) -> Result<Exit, Progra
     })
 }
 
-/// A progress bar that counts runs.
-struct SweepBar(CountBar);
-
-impl SweepBar {
-    fn new(sweep: &SweepFolder, quiet: bool) -> Self {
-        let all = sweep.manifest().entries.len();
-        Self(CountBar::new("runs", all, all - sweep.missing().len(), quiet))
-    }
-}
-
-impl SweepMonitor for SweepBar {
+impl SweepMonitor for CountBar {
     fn begun(&self, entry: &SweepRun) {
-        self.0.say(&entry.folder);
+        self.say(&entry.folder);
     }
 
     fn ended(&self, entry: &SweepRun, record: &EvaluationRecord) {
         if let Some(reason) = &record.failure {
             tracing::warn!("{}: {reason}", entry.folder);
         }
-        self.0.step();
+        self.step();
     }
 }
