@@ -34,7 +34,6 @@ pub struct ValidatedComparison {
     /// Relative standard uncertainty of the reference `[-]`, where it is known.
     pub reference_uncertainty: Option<f64>,
     /// The same by the inputs.
-    #[serde(default)]
     pub input_uncertainty: Option<f64>,
     /// a `[-]`.
     pub aspect_ratio: Option<f64>,

@@ -151,7 +151,6 @@ pub struct Gate {
     pub owner: GateOwner,
     /// Half width in the metric's unit where scatter alone sets it, of repetitions or of a measurement; none for a limit
     /// that has another reason.
-    #[serde(default)]
     pub statistical: Option<f64>,
 }
 
@@ -200,7 +199,6 @@ pub struct Metric {
     pub uncertainty: Uncertainty,
     /// 95 % prediction interval of the true value, from the errors of comparable predictions; none without such
     /// comparisons.
-    #[serde(default)]
     pub prediction: Option<PredictionInterval>,
     /// Relative tolerance of the baseline: how far the value may move before a change is reported `[-]`.
     pub snapshot_tolerance: f64,

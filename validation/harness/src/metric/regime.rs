@@ -57,10 +57,8 @@ pub struct PredictionInterval {
     /// Comparisons that it rests on.
     pub comparisons: usize,
     /// Relative standard uncertainty by inputs that it holds, root mean square of those comparisons `[-]`; none where it is not known.
-    #[serde(default)]
     pub input_uncertainty: Option<f64>,
     /// Length `[m]` that a dimensionless value counts; none for others.
-    #[serde(default)]
     pub unit_length: Option<f64>,
     /// Quantity of the comparisons.
     pub quantity: String,

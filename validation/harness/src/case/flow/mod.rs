@@ -89,20 +89,14 @@ pub trait Flow:
 
 /// The file of the flows of each tier.
 #[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 struct TiersFile {
-    #[serde(default)]
     set: Table,
-    #[serde(default)]
     paper: Table,
-    #[serde(default)]
     fine: Table,
-    #[serde(default)]
     variants: Vec<NamedVariant>,
-    #[serde(default)]
     vary: Vec<VariedParameter>,
     /// Fields of earlier files, each with the field that takes its place.
-    #[serde(default)]
     former: BTreeMap<String, String>,
 }
 
