@@ -131,11 +131,7 @@ pub(super) fn signed(value: f64) -> String {
 /// no size. What is not a number lies beyond every limit.
 pub(super) fn margin_share(metric: &Metric) -> Option<f64> {
     let limit = metric.gate.as_ref().filter(|_| metric.verdict() != Verdict::Observed)?.limit;
-    let scale = match limit {
-        Limit::AtMost(bound) | Limit::AtLeast(bound) => bound.abs(),
-        Limit::Within(lower, upper) => 0.5 * (upper - lower).abs(),
-    };
-    let share = limit.margin(metric.value) / scale;
+    let share = limit.margin(metric.value) / limit.half_width().abs();
     match metric.verdict() {
         Verdict::Fail if !share.is_finite() => Some(f64::NEG_INFINITY),
         _ => Some(share).filter(|share| share.is_finite()),

@@ -1,6 +1,6 @@
 //! The width of a gate as a stacked bar: what is known of the uncertainty of value and reference, over the gate's half width.
 
-use crate::metric::{COVERAGE, Gate, Limit, Metric};
+use crate::metric::{COVERAGE, Metric};
 use crate::number::{two_digits, with_unit};
 use serde_json::{Value, json};
 
@@ -10,7 +10,7 @@ const LENGTH: f64 = 120.0;
 /// Twice the stated standard uncertainty of a metric over the half width of its gate `[-]`; none where one of them is unknown. Above 1 the gate
 /// cannot tell a right value from a wrong one.
 pub(super) fn share_of_gate(metric: &Metric) -> Option<f64> {
-    let half_width = metric.gate.as_ref().and_then(half_width)?;
+    let half_width = Some(metric.gate.as_ref()?.limit.half_width()).filter(|half| half.is_finite() && *half > 0.0)?;
     Some(COVERAGE * metric.uncertainty.standard()? / half_width)
 }
 
@@ -40,19 +40,10 @@ pub(super) fn width(metric: &Metric) -> Option<Value> {
     Some(json!({ "parts": parts, "statement": statement, "words": words.join("; ") }))
 }
 
-/// Half width of a gate, in the metric's unit.
-fn half_width(gate: &Gate) -> Option<f64> {
-    let half = match gate.limit {
-        Limit::AtMost(bound) | Limit::AtLeast(bound) => bound.abs(),
-        Limit::Within(lower, upper) => 0.5 * (upper - lower),
-    };
-    (half.is_finite() && half > 0.0).then_some(half)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metric::{Origin, Variant};
+    use crate::metric::{Limit, Origin, Variant};
 
     #[test]
     fn parts_fill_the_share_of_the_gate_that_their_sum_takes() {

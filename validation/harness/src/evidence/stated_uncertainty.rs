@@ -177,10 +177,10 @@ impl StatedUncertainty {
             let origin = own.part.origins()[0];
             let standard = own.absolute.or(own.relative.map(|relative| relative * scale));
             let words = format!("{}: {}", own.basis.word(), own.source);
-            metric = match standard {
-                Some(0.0) => metric.known_exactly(origin, &words),
-                standard => metric.known_to(origin, standard, &words),
-            };
+            match standard {
+                Some(0.0) => metric.uncertainty.add_none(origin, &words),
+                standard => metric.uncertainty.add(origin, standard, &words),
+            }
         }
         metric
     }

@@ -126,6 +126,14 @@ impl Limit {
             Self::Within(lower, upper) => (value - lower).min(upper - value),
         }
     }
+
+    /// Size of the bound or half the distance of both, in the metric's unit.
+    pub fn half_width(self) -> f64 {
+        match self {
+            Self::AtMost(bound) | Self::AtLeast(bound) => bound.abs(),
+            Self::Within(lower, upper) => 0.5 * (upper - lower),
+        }
+    }
 }
 
 /// Owner of a gate. The order is that of a page.
@@ -274,12 +282,6 @@ impl Metric {
     /// uncertainty, or one that is not positive, adds nothing.
     pub fn known_to(mut self, origin: Origin, standard: Option<f64>, source: &str) -> Self {
         self.uncertainty.add(origin, standard, source);
-        self
-    }
-
-    /// Marks a part of the uncertainty as negligible, with the reason.
-    pub fn known_exactly(mut self, origin: Origin, source: &str) -> Self {
-        self.uncertainty.add_none(origin, source);
         self
     }
 

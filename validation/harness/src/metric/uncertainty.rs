@@ -135,7 +135,7 @@ impl Uncertainty {
     }
 
     /// A part that is known to be negligible.
-    pub(super) fn add_none(&mut self, origin: Origin, source: &str) {
+    pub(crate) fn add_none(&mut self, origin: Origin, source: &str) {
         self.parts.push(UncertaintyComponent { origin, standard: 0.0, source: source.to_owned() });
     }
 
