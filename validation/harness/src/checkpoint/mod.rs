@@ -42,17 +42,10 @@ pub struct Checkpoints {
 
 #[derive(Debug)]
 struct CheckpointState {
-    /// Checkpoints of an earlier program, the newest first, until a run has taken them.
-    left: Option<Vec<CheckpointFile>>,
+    /// Paths and contents of whole checkpoints of an earlier program, the newest first, until a run has taken them.
+    left: Option<Vec<(PathBuf, Vec<u8>)>>,
     /// Time at which the next checkpoint is due.
     due: Instant,
-}
-
-/// A whole checkpoint of this run.
-#[derive(Debug, Clone)]
-struct CheckpointFile {
-    path: PathBuf,
-    contents: Vec<u8>,
 }
 
 impl Checkpoints {
@@ -81,7 +74,7 @@ impl Checkpoints {
         let left = state.left.take().unwrap_or_else(|| self.whole());
         let refuse = |reason| format!("does not hold the state of this run ({reason})");
         let mut decoded =
-            |found: &CheckpointFile| decode(&found.contents).map_err(|reason| warn(&found.path, &refuse(reason))).ok();
+            |(path, contents): &(PathBuf, Vec<u8>)| decode(contents).map_err(|reason| warn(path, &refuse(reason))).ok();
         let seen = left.into_iter().find_map(|found| Some((decoded(&found)?, found)));
         let (decoded, found) = seen.unzip();
         state.left = Some(found.into_iter().collect());
@@ -90,7 +83,7 @@ impl Checkpoints {
 
     /// Result of `decode` for the newest checkpoint that it can use.
     pub fn usable<T>(&self, decode: impl FnMut(&[u8]) -> Option<T>) -> Option<T> {
-        self.whole().iter().map(|found| &found.contents[..]).find_map(decode)
+        self.whole().iter().map(|(_, contents)| &contents[..]).find_map(decode)
     }
 
     /// File of the newest checkpoint.
@@ -98,14 +91,14 @@ impl Checkpoints {
         self.numbers().last().map(|number| self.path(*number))
     }
 
-    /// All whole checkpoints, the newest first; others are refused with their reason.
-    fn whole(&self) -> Vec<CheckpointFile> {
+    /// Paths and contents of all whole checkpoints, the newest first; others are refused with their reason.
+    fn whole(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let mut numbers = self.numbers();
         numbers.reverse();
         let read = |number: u64| {
             let path = self.path(number);
             let contents = STATE.read(&path, Some(&self.key)).map_err(|refused| warn(&path, &refused)).ok()?;
-            Some(CheckpointFile { path, contents })
+            Some((path, contents))
         };
         numbers.into_iter().filter_map(read).collect()
     }

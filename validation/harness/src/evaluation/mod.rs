@@ -17,10 +17,9 @@ use crate::case::{CaseFile, Changes, Limits, Monitor, ParameterError, PreparedCa
 use crate::input::MeasuredFiles;
 use crate::measured::{Measurements, draw_measured};
 use crate::metric::Variant;
-use crate::store::{Store, hexadecimal, identity_or_unique};
+use crate::store::{Store, hash_of_parts, identity_or_unique};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::panic::AssertUnwindSafe;
 use std::path::{Path, PathBuf};
 
@@ -105,15 +104,10 @@ pub fn chosen(
 
 /// The hash that an evaluation is known by, with what its figures are compared with: 32 hexadecimal digits.
 pub fn key(prepared: &dyn PreparedCase, overlay: &[Measurements]) -> String {
-    let mut hash = Sha256::new();
     let variants: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run).to_string()).collect();
     let runs = variants.join("\n");
     let parts = [identity_or_unique(prepared.origin()), prepared.name(), prepared.parameters_toml(), &runs];
-    for part in parts.into_iter().chain(overlay.iter().map(|own| &*own.text)) {
-        hash.update((part.len() as u64).to_le_bytes());
-        hash.update(part);
-    }
-    hexadecimal(&hash.finalize())[..32].to_owned()
+    hash_of_parts(parts.into_iter().chain(overlay.iter().map(|own| &*own.text)))[..32].to_owned()
 }
 
 /// Simulates and judges on the current rayon pool's threads. Parameters that give no scene, a run that diverges and one

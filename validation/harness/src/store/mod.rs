@@ -148,12 +148,7 @@ impl Store {
             .ok()?;
         let own = provenance::simulation_hash(case, &description);
         let program = if program == source_hash() { own.as_str() } else { program };
-        let mut hash = Sha256::new();
-        for part in [program, case, &description].map(str::as_bytes) {
-            hash.update((part.len() as u64).to_le_bytes());
-            hash.update(part);
-        }
-        Some(StoreKey(hexadecimal(&hash.finalize())))
+        Some(StoreKey(hash_of_parts([program, case, &description])))
     }
 
     /// The stored record; `None` if there is none, it is damaged, or it is not wanted.
@@ -223,6 +218,16 @@ fn cache_folder() -> Option<PathBuf> {
 fn is_version(name: &str) -> bool {
     name.strip_prefix(FOLDER_PREFIX)
         .is_some_and(|version| version.len() == 16 && version.bytes().all(|byte| byte.is_ascii_hexdigit()))
+}
+
+/// Hash of several texts, each behind its length.
+pub(crate) fn hash_of_parts<'p>(parts: impl IntoIterator<Item = &'p str>) -> String {
+    let mut hash = Sha256::new();
+    for part in parts {
+        hash.update((part.len() as u64).to_le_bytes());
+        hash.update(part);
+    }
+    hexadecimal(&hash.finalize())
 }
 
 /// Lower-case hexadecimal digits of some bytes.
