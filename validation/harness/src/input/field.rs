@@ -1,7 +1,6 @@
 //! A field whose value breaks a rule: the error that most input is refused with.
 
 use super::escape::{escaped, shown};
-use super::place::position;
 use crate::sampling::BoundsError;
 use bagnold_solver::parameter::{defect, shortened};
 use std::path::{Path, PathBuf};
@@ -84,4 +83,12 @@ pub(crate) fn before(origin: &Option<Origin>) -> String {
         Some(Origin::Setting(argument)) => format!("`--set {}`: ", escaped(argument)),
         None => String::new(),
     }
+}
+
+/// Line and column of a byte offset, both from 1.
+fn position(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+    (line, column)
 }

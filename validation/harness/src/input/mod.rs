@@ -5,9 +5,7 @@ mod field;
 mod measured_files;
 mod mesh;
 mod name;
-mod number;
 mod packed_triangles;
-mod place;
 mod reading;
 mod table;
 mod text_table;
@@ -21,9 +19,13 @@ pub(crate) use mesh::{MOST_TRIANGLES, Triangle, read_mesh};
 pub use name::{
     check_name, check_text, did_you_mean, is_same_heading, is_uncertainty, name_and_unit, nearest, parted, unnumbered,
 };
-pub use number::number_in;
 pub use packed_triangles::PackedTriangles;
 pub(crate) use packed_triangles::packed;
 pub use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, open_file, read_bytes, read_own, read_text};
 pub use table::{is_mark, plain_lines, text_fault};
 pub use text_table::{TableRows, TextTable, of_repeats};
+
+/// The number of a value of TOML, which may be written without a point; none for another type.
+pub fn number_in(value: &toml::Value) -> Option<f64> {
+    value.as_float().or(value.as_integer().map(|whole| whole as f64))
+}
