@@ -13,14 +13,11 @@ pub use states::States;
 use std::io;
 use std::path::Path;
 
-/// Writes everything about a case into a folder but its page and what the page shows: parameters, metrics, provenance,
-/// tables and snapshots.
+/// Writes into a case's folder what `bagnold run` adds to its page and numbers: provenance, tables and snapshots.
 ///
 /// # Errors
 /// Files that cannot be written.
 pub fn write_case(folder: &Path, result: &CaseResult, document: &MetricsDocument) -> io::Result<()> {
-    std::fs::write(folder.join("case.toml"), &result.parameters_toml)?;
-    std::fs::write(folder.join("metrics.json"), document.text())?;
     std::fs::write(folder.join("provenance.json"), pretty(&document.provenance))?;
     let tables = folder.join("tables");
     std::fs::create_dir_all(&tables)?;
