@@ -90,10 +90,10 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         for (k, gauge) in self.gauges.iter().enumerate() {
             let within = |error: ParameterError| error.within(&format!("gauges[{k}]"));
             match gauge.measure(&down) {
-                Measurand::Force { wall } | Measurand::Position { wall } => {
+                Measurand::Force(wall) | Measurand::Position(wall) => {
                     names::check_wall("wall", wall, self.barriers().map(|(name, _)| name)).map_err(within)?;
                 }
-                Measurand::Turn { wall } if !self.turns(wall) => {
+                Measurand::Turn(wall) if !self.turns(wall) => {
                     let remedy = "give the wall a `turn` (rate 0 holds it), or correct the name";
                     let (value, rule) = (format!("\"{wall}\""), "a wall with a `turn`");
                     return Err(within(ParameterError::field("wall", value, rule, remedy)));
@@ -118,7 +118,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
                 Measurand::Depth(depth) if depth.direction[axis].abs() < 1e-9 => 0.5 * depth.width,
                 Measurand::Probe(probe) => probe.reach * self.spacing,
                 Measurand::Depth(_) => continue,
-                Measurand::Force { .. } | Measurand::Position { .. } | Measurand::Turn { .. } => continue,
+                Measurand::Force(_) | Measurand::Position(_) | Measurand::Turn(_) => continue,
             };
             let places = gauge.places();
             let all = |way: f64, plane: f64| places.iter().all(|place| way * (place[axis] - plane) > margin);

@@ -91,17 +91,17 @@ impl<const D: usize> Memory<D> {
             }
             Measurand::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
             Measurand::Probe(probe) => probe.values(simulation, periods, snapshot),
-            Measurand::Position { wall } => {
+            Measurand::Position(wall) => {
                 let place = place_of(wall).map(|k| simulation.facet_wall_poses()[k].shift);
                 place.unwrap_or_else(Vector::zeros).iter().copied().collect()
             }
-            Measurand::Force { wall } => {
+            Measurand::Force(wall) => {
                 let Some(k) = place_of(wall) else { return vec![0.0; D] };
                 let before = self.impulses.get(k).copied().unwrap_or_else(Vector::zeros);
                 // the wall feels the opposite of what it gives
                 (before - simulation.facet_wall_impulses()[k]).iter().map(|&change| per_time(change)).collect()
             }
-            Measurand::Turn { wall } => {
+            Measurand::Turn(wall) => {
                 let Some(k) = place_of(wall) else { return vec![0.0; 2] };
                 let before = self.moments.get(k).copied().unwrap_or(0.0);
                 let turn = simulation.facet_walls()[k].motion.turn.as_ref();

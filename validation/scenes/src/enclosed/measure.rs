@@ -25,21 +25,12 @@ pub enum Measurand<'a, const D: usize> {
     Depth(DepthGauge<D>),
     /// Velocity and pressures at a place.
     Probe(Probe<D>),
-    /// Force of the flow on a wall.
-    Force {
-        /// Name of the wall.
-        wall: &'a str,
-    },
-    /// Displacement of a wall since the start.
-    Position {
-        /// Name of the wall.
-        wall: &'a str,
-    },
-    /// Torque of the flow on a wall that turns, about its axis, and its angle.
-    Turn {
-        /// Name of the wall.
-        wall: &'a str,
-    },
+    /// Force of the flow on the wall of this name.
+    Force(&'a str),
+    /// Displacement of the wall of this name since the start.
+    Position(&'a str),
+    /// Torque of the flow on the wall of this name, which turns, about its axis, and its angle.
+    Turn(&'a str),
     /// Mass that crosses an opening.
     Flux(Opening<D>),
 }

@@ -152,12 +152,12 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                     .of(&own, last)
                     .predicted(front.and_then(|front| prediction::of_depth(parameters, data, &depth, front, last)))
             }
-            Measurand::Force { .. } => {
+            Measurand::Force(_) => {
                 let means: Vec<f64> = series.values.iter().map(|component| mean(component)).collect();
                 mean_force::<S, D>().of(&own, size(&means))
             }
             // what it reads has no one quantity: studies take its columns
-            Measurand::Probe(_) | Measurand::Position { .. } | Measurand::Turn { .. } => continue,
+            Measurand::Probe(_) | Measurand::Position(_) | Measurand::Turn(_) => continue,
             Measurand::Flux(_) => {
                 if let Some((mean, error)) = discharge(&data.time, first) {
                     let steady = discharge_of::<S, D>().of(&own, mean).with_snapshot_tolerance(0.1, 0.0);

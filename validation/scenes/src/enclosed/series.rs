@@ -51,6 +51,9 @@ fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<G
         heading: format!("{what} [{unit}]"),
         axis: format!("{axis} [{unit}]"),
     };
+    let along = |what: &str, unit: &str| -> Vec<GaugeColumn> {
+        ["x", "y", "z"].iter().take(D).map(|axis| column(&format!("{what} along {axis}"), what, unit)).collect()
+    };
     match measure {
         Measurand::Front(_) => {
             let half = |word: &str| column(&format!("front at half a row {word}"), "interval of the front", "m");
@@ -58,19 +61,12 @@ fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<G
         }
         Measurand::Depth(_) => vec![column("depth", "depth", "m")],
         Measurand::Probe(_) => {
-            let along = |axis: &&str| column(&format!("velocity along {axis}"), "velocity", "m/s");
             let pressures = [column("pressure", "pressure", "Pa"), column("pore pressure", "pressure", "Pa")];
-            pressures.into_iter().chain(["x", "y", "z"].iter().take(D).map(along)).collect()
+            pressures.into_iter().chain(along("velocity", "m/s")).collect()
         }
-        Measurand::Force { .. } => {
-            let along = |axis: &&str| column(&format!("force along {axis}"), "force", force);
-            ["x", "y", "z"].iter().take(D).map(along).collect()
-        }
-        Measurand::Position { .. } => {
-            let along = |axis: &&str| column(&format!("displacement along {axis}"), "displacement", "m");
-            ["x", "y", "z"].iter().take(D).map(along).collect()
-        }
-        Measurand::Turn { .. } => {
+        Measurand::Force(_) => along("force", force),
+        Measurand::Position(_) => along("displacement", "m"),
+        Measurand::Turn(_) => {
             vec![column("torque", "torque", &force.replacen('N', "N m", 1)), column("angle", "angle", "rad")]
         }
         Measurand::Flux(_) => {

@@ -64,7 +64,7 @@ pub(super) fn setup(parameters: &PlaneFlow, sites: &[(Vector<2>, f64)]) -> Vec<P
                 vec![point(&(depth.at - way)), point(&(depth.at + way))]
             }
             Measurand::Probe(probe) => vec![point(&probe.at)],
-            Measurand::Force { .. } | Measurand::Position { .. } | Measurand::Turn { .. } => continue,
+            Measurand::Force(_) | Measurand::Position(_) | Measurand::Turn(_) => continue,
         };
         panel.series.push(Series::new(gauge.name(), Mark::Reference, 0, points));
     }

@@ -115,9 +115,9 @@ impl setting::SceneGauge<2> for PlaneGauge {
                 Measurand::Depth(DepthGauge { at: vector(at), direction: *down, width: *width, section: *width })
             }
             Self::Probe { at, spacings, .. } => Measurand::Probe(Probe { at: vector(at), reach: 0.5 * spacings }),
-            Self::Force { wall, .. } => Measurand::Force { wall },
-            Self::Position { wall, .. } => Measurand::Position { wall },
-            Self::Turn { wall, .. } => Measurand::Turn { wall },
+            Self::Force { wall, .. } => Measurand::Force(wall),
+            Self::Position { wall, .. } => Measurand::Position(wall),
+            Self::Turn { wall, .. } => Measurand::Turn(wall),
             Self::Flux { from, to, .. } => {
                 let (corner, to): (Vector<2>, Vector<2>) = (vector(from), vector(to));
                 let along = to - corner;

@@ -101,29 +101,23 @@ pub(super) fn setup(parameters: &SpaceFlow, sites: &[(Vector<3>, f64)]) -> Vec<P
     views(parameters).iter().map(view).collect()
 }
 
-/// An edge of a triangle.
-struct TriangleEdge {
-    ends: [Vector<3>; 2],
-    /// Of the triangle `[-]`.
-    normal: Vector<3>,
-}
-
 /// Edges at which triangles end or fold.
 fn sharp_edges(facets: &[Facet<3>]) -> Vec<[Vector<3>; 2]> {
     let bits = |corner: &Vector<3>| [0, 1, 2].map(|axis| (corner[axis] as f32 + 0.0).to_bits());
-    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<TriangleEdge>> = BTreeMap::new();
+    // the ends of edges, with the normals of their triangles
+    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<_>> = BTreeMap::new();
     for Facet { corners: [a, b, c], normal } in facets.iter().copied() {
         for ends in [[a, b], [b, c], [c, a]] {
             let mut key = ends.each_ref().map(bits);
             key.sort_unstable();
-            edges.entry(key).or_default().push(TriangleEdge { ends, normal });
+            edges.entry(key).or_default().push((ends, normal));
         }
     }
-    let sharp = |edges: &Vec<TriangleEdge>| match edges.as_slice() {
-        [one, other] => one.normal.dot(&other.normal) < SHARP,
+    let sharp = |edges: &Vec<([Vector<3>; 2], Vector<3>)>| match edges.as_slice() {
+        [(_, one), (_, other)] => one.dot(other) < SHARP,
         _ => true,
     };
-    edges.into_values().filter(sharp).filter_map(|edges| edges.first().map(|edge| edge.ends)).collect()
+    edges.into_values().filter(sharp).filter_map(|edges| edges.first().map(|(ends, _)| *ends)).collect()
 }
 
 #[cfg(test)]

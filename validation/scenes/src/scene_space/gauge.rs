@@ -120,9 +120,9 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 Measurand::Depth(DepthGauge { at: vector(at), direction: *down, width: *width, section })
             }
             Self::Probe { at, spacings, .. } => Measurand::Probe(Probe { at: vector(at), reach: 0.5 * spacings }),
-            Self::Force { wall, .. } => Measurand::Force { wall },
-            Self::Position { wall, .. } => Measurand::Position { wall },
-            Self::Turn { wall, .. } => Measurand::Turn { wall },
+            Self::Force { wall, .. } => Measurand::Force(wall),
+            Self::Position { wall, .. } => Measurand::Position(wall),
+            Self::Turn { wall, .. } => Measurand::Turn(wall),
             Self::Flux { corners, .. } => {
                 let [corner, one, other] = edges(corners);
                 let normal = one.cross(&other);
