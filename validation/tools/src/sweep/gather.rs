@@ -5,7 +5,7 @@ use super::manifest::{Manifest, SweepRun};
 use super::map::{self, MetricMap};
 use crate::case::Registry;
 use crate::evaluation::{EvaluationRecord, MetricValue};
-use crate::figure::{Axis, Figure, FigureError, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, FigureError, Panel};
 use crate::metric::{Variant, Verdict};
 use crate::output::{FileError, csv_text, write_whole};
 use crate::{ToolError, page};
@@ -138,19 +138,15 @@ fn pairs(manifest: &Manifest, case: &str, records: &[(&SweepRun, EvaluationRecor
             let found = own.iter().zip(values).filter_map(|((_, record), &x)| Some((x, value_of(record)?)));
             let found: Vec<(f64, (f64, String))> = found.collect();
             let unit = found.last().map_or("", |(_, (_, unit))| unit.as_str());
-            let points = found.iter().map(|(x, (value, _))| (*x, *value)).collect();
             let label = &manifest.parameters[*parameter];
             let mut panel = Panel::new("", Axis::linear(label), Axis::linear(&format!("{name} [{unit}]")));
-            panel.series.push(Series::new("", Mark::Points, 0, points));
+            panel.points("", 0, found.iter().map(|(x, (value, _))| (*x, *value)));
             panels.push(panel);
         }
     }
-    let pairs = Figure {
-        name: format!("pairs-{}", case.replace([' ', '/'], "-")),
-        caption: format!("Metrics of every run over the varied parameters; rows of panels: {}.", rows.join("; ")),
-        columns: varied.len().min(3),
-        panels,
-    };
+    let name = format!("pairs-{}", case.replace([' ', '/'], "-"));
+    let caption = format!("Metrics of every run over the varied parameters; rows of panels: {}.", rows.join("; "));
+    let pairs = Figure::new(&name, &caption, panels).in_columns(varied.len().min(3));
     let map = match &varied[..] {
         [(x, _), (y, _)] => map::figure(case, [&manifest.parameters[*x], &manifest.parameters[*y]], &surfaces),
         _ => None,

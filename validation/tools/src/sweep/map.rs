@@ -39,12 +39,9 @@ pub(super) struct MetricMap {
 pub(super) fn figure(case: &str, parameters: [&str; 2], surfaces: &[MetricMap]) -> Option<Figure> {
     let panels: Vec<Panel> =
         surfaces.iter().filter(|surface| surface.points.len() > 1).map(|surface| panel(parameters, surface)).collect();
-    (!panels.is_empty()).then(|| Figure {
-        name: format!("map-{}", case.replace([' ', '/'], "-")),
-        caption: format!("Metrics of every run, shown as colours, over {} and {}.", parameters[0], parameters[1]),
-        columns: panels.len().min(2),
-        panels,
-    })
+    let name = format!("map-{}", case.replace([' ', '/'], "-"));
+    let caption = format!("Metrics of every run, shown as colours, over {} and {}.", parameters[0], parameters[1]);
+    (!panels.is_empty()).then(|| Figure::new(&name, &caption, panels))
 }
 
 fn panel(parameters: [&str; 2], surface: &MetricMap) -> Panel {

@@ -4,7 +4,7 @@ mod corner;
 mod pairs;
 
 use super::result::{CalibrationResult, DatumComparison, ParameterEstimate};
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Panel};
 use crate::inference::chi_squared_quantile;
 use crate::statistics::grouped;
 
@@ -153,9 +153,7 @@ fn panel(title: &str, members: &[&DatumComparison]) -> Panel {
             panel.band("model, 95 %", band);
         }
         panel.line("model", 0, of(|datum| datum.model));
-        let mut points = Series::new("data", Mark::Points, 1, of(|datum| datum.datum));
-        points.error = errors;
-        panel.series.push(points);
+        panel.points("data", 1, of(|datum| datum.datum)).error = errors;
         return panel;
     }
     let label = |what: &str| format!("{title}, {what} [{}]", first.unit);
@@ -169,10 +167,7 @@ fn panel(title: &str, members: &[&DatumComparison]) -> Panel {
             panel.line(label, 0, [(low, datum.datum), (high, datum.datum)]);
         }
     }
-    let mut points =
-        Series::new("data", Mark::Points, 1, members.iter().map(|datum| (datum.model, datum.datum)).collect());
-    points.error = errors;
-    panel.series.push(points);
+    panel.points("data", 1, members.iter().map(|datum| (datum.model, datum.datum))).error = errors;
     panel
 }
 
