@@ -5,30 +5,17 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Sums over the samples (particles × times) of one bin in one block of time.
+/// The samples (particles × times) of one bin, as sums of one block of time or as averages.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct BinSums {
-    /// Samples.
-    pub samples: f64,
-    /// Heights `[m]`.
-    pub height: f64,
-    /// Velocities along the floor `[m/s]`.
-    pub velocity: f64,
-    /// Pressures `[Pa]`.
-    pub pressure: f64,
-}
-
-/// Averages of one bin.
-#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfilePoint {
-    /// Mean height of the samples `[m]`.
+    /// Number of samples.
+    pub samples: f64,
+    /// Height of the samples `[m]`.
     pub height: f64,
     /// Velocity along the floor `[m/s]`.
     pub velocity: f64,
     /// Pressure `[Pa]`.
     pub pressure: f64,
-    /// Samples (particles × times).
-    pub samples: f64,
 }
 
 /// A profile over the averaging window.
@@ -41,24 +28,19 @@ pub struct BlockProfile {
     /// Times that were sampled.
     pub times: usize,
     /// Sums, shape `[bins][blocks of time]`.
-    pub sums: Vec<Vec<BinSums>>,
+    pub sums: Vec<Vec<ProfilePoint>>,
 }
 
 impl BlockProfile {
     /// An empty profile of `bins` bins of the height `bin` `[m]` from `bottom` `[m]`.
     pub fn new(bottom: f64, bin: f64, bins: usize) -> Self {
-        Self { bottom, bin, times: 0, sums: vec![vec![BinSums::default(); BLOCKS]; bins] }
+        Self { bottom, bin, times: 0, sums: vec![vec![ProfilePoint::default(); BLOCKS]; bins] }
     }
 
     /// A profile that is known without samples: the same in every block of time, so without a statistical error.
     pub fn known(points: impl IntoIterator<Item = ProfilePoint>) -> Self {
-        let sums: Vec<Vec<BinSums>> = points
-            .into_iter()
-            .map(|ProfilePoint { height, velocity, pressure, .. }| {
-                vec![BinSums { samples: 1.0, height, velocity, pressure }; BLOCKS]
-            })
-            .collect();
-        Self { bottom: 0.0, bin: 1.0, times: BLOCKS, sums }
+        let blocks = |point: ProfilePoint| vec![ProfilePoint { samples: 1.0, ..point }; BLOCKS];
+        Self { bottom: 0.0, bin: 1.0, times: BLOCKS, sums: points.into_iter().map(blocks).collect() }
     }
 
     /// Adds a sample at `share` of the averaging window, 0 … 1: the particles' positions `[m]`, velocities `[m/s]` and
@@ -113,8 +95,8 @@ impl BlockProfile {
     }
 }
 
-fn mean_without(blocks: &[BinSums], left_out: &Range<usize>) -> Option<ProfilePoint> {
-    let mut sum = BinSums::default();
+fn mean_without(blocks: &[ProfilePoint], left_out: &Range<usize>) -> Option<ProfilePoint> {
+    let mut sum = ProfilePoint::default();
     for (_, add) in blocks.iter().enumerate().filter(|(block, _)| !left_out.contains(block)) {
         sum.samples += add.samples;
         sum.height += add.height;
@@ -122,10 +104,6 @@ fn mean_without(blocks: &[BinSums], left_out: &Range<usize>) -> Option<ProfilePo
         sum.pressure += add.pressure;
     }
     let n = sum.samples;
-    (n > 0.0).then(|| ProfilePoint {
-        height: sum.height / n,
-        velocity: sum.velocity / n,
-        pressure: sum.pressure / n,
-        samples: n,
-    })
+    let [height, velocity, pressure] = [sum.height, sum.velocity, sum.pressure].map(|sum| sum / n);
+    (n > 0.0).then_some(ProfilePoint { samples: n, height, velocity, pressure })
 }

@@ -15,20 +15,26 @@ pub struct LinearFit {
 
 /// The least-squares line through points (x, y); none for fewer than two distinct x.
 pub fn linear_fit(points: &[(f64, f64)]) -> Option<LinearFit> {
-    let n = points.len() as f64;
-    let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / n;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
-    for point in points {
-        xx += (point.0 - x) * (point.0 - x);
-        xy += (point.0 - x) * (point.1 - y);
-        yy += (point.1 - y) * (point.1 - y);
-    }
+    let mut products = [0.0; 3];
+    let (x, y) = add_products(points, &mut products);
+    let [xx, xy, yy] = products;
     let slope = xy / xx;
     let intercept = y - slope * x;
     let residual: f64 = points.iter().map(|p| (p.1 - intercept - slope * p.0).powi(2)).sum();
-    let (r_squared, standard_error) = (1.0 - residual / yy, (residual / (n - 2.0) / xx).sqrt());
+    let (r_squared, standard_error) = (1.0 - residual / yy, (residual / (points.len() as f64 - 2.0) / xx).sqrt());
     slope.is_finite().then_some(LinearFit { slope, intercept, r_squared, standard_error })
+}
+
+/// Adds Σ x x, Σ x y and Σ y y of points (x, y) about their mean, and returns the mean.
+fn add_products(points: &[(f64, f64)], products: &mut [f64; 3]) -> (f64, f64) {
+    let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / points.len() as f64;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    for point in points {
+        products[0] += (point.0 - x) * (point.0 - x);
+        products[1] += (point.0 - x) * (point.1 - y);
+        products[2] += (point.1 - y) * (point.1 - y);
+    }
+    (x, y)
 }
 
 /// A fitted value with its standard error, both in the value's unit.
@@ -43,16 +49,11 @@ pub struct FittedValue {
 /// The slope that groups of points (x, y) share, each group with an intercept of its own; none without two distinct x in
 /// a group and one point more than there are intercepts and slope.
 pub fn common_slope(groups: &[Vec<(f64, f64)>]) -> Option<FittedValue> {
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    let mut products = [0.0; 3];
     for points in groups {
-        let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / points.len() as f64;
-        let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-        for point in points {
-            xx += (point.0 - x) * (point.0 - x);
-            xy += (point.0 - x) * (point.1 - y);
-            yy += (point.1 - y) * (point.1 - y);
-        }
+        add_products(points, &mut products);
     }
+    let [xx, xy, yy] = products;
     let freedom = groups.iter().map(Vec::len).sum::<usize>().checked_sub(groups.len() + 1)?;
     let value = xy / xx;
     let residual = (yy - value * xy).max(0.0);

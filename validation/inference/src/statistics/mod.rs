@@ -15,7 +15,7 @@ mod segmented;
 mod student;
 
 pub use block_average::{Average, BLOCKS, TooFewSamples, block_average, block_jackknife};
-pub use block_profile::{BinSums, BlockProfile, ProfilePoint};
+pub use block_profile::{BlockProfile, ProfilePoint};
 pub use fit::{Exponent, FittedValue, LinearFit, common_slope, linear_fit, log_log_slope, power_law};
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
 pub use groups::grouped;

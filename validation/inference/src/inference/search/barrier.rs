@@ -9,14 +9,9 @@ const BARRIER: f64 = 1.0;
 /// Steps from one to the other.
 const STEPS: usize = 10;
 
-/// Whether χ² of the emulator rises between two points to where no experiment confuses them.
+/// Whether χ² of the emulator rises between two points above the higher one to where no experiment confuses them. The
+/// coordinate in which they differ most is moved in steps, all others are at their best, as along a valley.
 pub(super) fn is_parted(emulator: &Emulator, from: &[f64], to: &[f64]) -> bool {
-    barrier(emulator, from, to) > BARRIER
-}
-
-/// Barrier of the emulator's χ² between two points: its rise above the higher one on the way. The coordinate in which they
-/// differ most is moved in steps, all others are at their best, as along a valley.
-fn barrier(emulator: &Emulator, from: &[f64], to: &[f64]) -> f64 {
     let apart = |k: &usize| (from[*k] - to[*k]).abs();
     let along = (0..from.len()).max_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0);
     let mut place = from.to_vec();
@@ -27,5 +22,5 @@ fn barrier(emulator: &Emulator, from: &[f64], to: &[f64]) -> f64 {
         highest = highest.max(bottom.chi_squared);
         place = bottom.point;
     }
-    highest - emulator.chi_squared(from).max(emulator.chi_squared(to))
+    highest - emulator.chi_squared(from).max(emulator.chi_squared(to)) > BARRIER
 }

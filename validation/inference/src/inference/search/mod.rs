@@ -148,11 +148,8 @@ pub enum SearchError<E> {
     #[error("{0}")]
     Model(E),
     /// No run of the model succeeded.
-    #[error("the model failed at all {evaluations} points that were tried; move the start or narrow the ranges")]
-    NothingWorked {
-        /// Points tried.
-        evaluations: usize,
-    },
+    #[error("the model failed at all {0} points that were tried; move the start or narrow the ranges")]
+    NothingWorked(usize),
     /// The search cannot begin.
     #[error("`{field}` is {value}, but must be {rule}")]
     Setting {
@@ -201,20 +198,20 @@ pub fn continue_search<M: Evaluate>(
     check(start, &budget)?;
     let known = history.len();
     let mut recorder = Recorder::with(model, history, known + budget.evaluations);
-    let first = match method {
-        Method::TrustRegion | Method::Posterior => trust_region::run(&mut recorder, start, &budget, &[])
-            .map(|descent| (descent.stopped.unwrap_or(Termination::Converged), Some(descent.minimum))),
+    let mut first = None;
+    let mut outcome = match method {
+        Method::TrustRegion | Method::Posterior => {
+            trust_region::run(&mut recorder, start, &budget, &[]).map(|descent| {
+                first = Some(descent.minimum);
+                descent.stopped.unwrap_or(Termination::Converged)
+            })
+        }
         Method::Design => {
             let points = crate::sampling::design::sobol((budget.evaluations - 1).max(1), start.len(), budget.seed);
-            design::run(&mut recorder, &points, &budget).map(|stopped| (stopped, None))
+            design::run(&mut recorder, &points, &budget)
         }
     };
-    let (mut outcome, first) = match first {
-        Ok((stopped, Some(minimum))) => (Ok(stopped), Some(minimum)),
-        Ok((stopped, None)) => (Ok(stopped), lowest(recorder.history())),
-        Err(halt) => (Err(halt), lowest(recorder.history())),
-    };
-    let mut minima: Vec<LocalMinimum> = first.into_iter().collect();
+    let mut minima: Vec<LocalMinimum> = first.or_else(|| lowest(recorder.history())).into_iter().collect();
     let mut every_start = true;
     if budget.starts > 0 && !minima.is_empty() && !matches!(outcome, Err(Halt::Model(_) | Halt::Residuals(..))) {
         recorder.allow(budget.evaluations);
@@ -264,10 +261,7 @@ pub(super) fn search_beside<M: Evaluate>(
         for branch in &branches {
             let known: &[LocalMinimum] = if ends_at_known { &minima } else { &[] };
             let descent = trust_region::run(&mut recorder, branch, budget, known)?;
-            if descent.stopped.is_none() {
-                continue;
-            }
-            if !minima.iter().any(|known| known.is_at(&descent.minimum.point)) {
+            if descent.stopped.is_some() && !minima.iter().any(|known| known.is_at(&descent.minimum.point)) {
                 minima.push(descent.minimum);
             }
         }

@@ -132,7 +132,7 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
                 minima.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
                 Ok(SearchResult { best, chi_squared, history: self.history, stopped, minima, every_start })
             }
-            None => Err(SearchError::NothingWorked { evaluations: self.history.len() }),
+            None => Err(SearchError::NothingWorked(self.history.len())),
         }
     }
 }

@@ -95,23 +95,16 @@ pub(super) fn run<M: Evaluate>(
                 continue;
             }
             polishes += 1;
-            match polish(recorder, &here, least, polishes <= MOST_POLISHES)? {
-                Some(better) => {
-                    here = better;
-                    jacobian = differences(recorder, &here, budget.difference)?;
-                    origin.clone_from(&here.point);
-                    walls = Walls::about(recorder, &origin, budget.difference);
-                    radius = radius.max(budget.difference);
-                    continue;
-                }
-                None => {
-                    return Ok(here.descent(Some(if negligible {
-                        Termination::Converged
-                    } else {
-                        Termination::Stalled
-                    })));
-                }
-            }
+            let Some(better) = polish(recorder, &here, least, polishes <= MOST_POLISHES)? else {
+                let stopped = if negligible { Termination::Converged } else { Termination::Stalled };
+                return Ok(here.descent(Some(stopped)));
+            };
+            here = better;
+            jacobian = differences(recorder, &here, budget.difference)?;
+            origin.clone_from(&here.point);
+            walls = Walls::about(recorder, &origin, budget.difference);
+            radius = radius.max(budget.difference);
+            continue;
         }
 
         let trial: Vec<f64> = here.point.iter().zip(step.iter()).map(|(u, s)| (u + s).clamp(0.0, 1.0)).collect();

@@ -83,7 +83,7 @@ fn a_model_that_always_fails_is_reported() {
     for method in METHODS {
         let mut model = Failing { curve: ExponentialDecay::new(), beyond: -1.0 };
         let error = search(&mut model, &[0.5; 3], method, budget(9)).unwrap_err();
-        assert!(matches!(error, SearchError::NothingWorked { evaluations: 1..=9 }), "{method:?}: {error}");
+        assert!(matches!(error, SearchError::NothingWorked(1..=9)), "{method:?}: {error}");
     }
 }
 
