@@ -7,7 +7,7 @@ use crate::evidence::StatedUncertainty;
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{ComparisonPart, Metric};
 use crate::number::{four_digits, two_digits};
-use crate::statistics::{Comparison, Deviation, ModelBias, model_bias};
+use crate::statistics::{Comparison, ModelBias, model_bias};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -115,10 +115,10 @@ pub(super) fn rows(quantities: &[QuantityBias], drawn: &[DrawnFigure]) -> Vec<Va
     let row = |(place, of): (usize, &QuantityBias)| {
         let found = &of.found;
         let percent = |share: f64| format!("{}\u{202f}%", two_digits(100.0 * share));
-        let (model, experiment) = match found.deviation {
-            Deviation::Known { model, experiment } => (percent(model), percent(experiment)),
-            Deviation::WithinExperiment { experiment } => ("within σ_E".to_owned(), percent(experiment)),
-            Deviation::Unknown => ("none".to_owned(), "not known".to_owned()),
+        let (model, experiment) = match (found.model_deviation(), found.experimental_deviation) {
+            (Some(model), Some(experiment)) => (percent(model), percent(experiment)),
+            (None, Some(experiment)) => ("within σ_E".to_owned(), percent(experiment)),
+            (_, None) => ("none".to_owned(), "not known".to_owned()),
         };
         let cases: Vec<&str> = of.cases.iter().map(|(case, _)| case.as_str()).collect();
         json!({
@@ -141,10 +141,6 @@ pub(super) fn rows(quantities: &[QuantityBias], drawn: &[DrawnFigure]) -> Vec<Va
 pub(super) fn json(judgement: &Judgement<'_>, quantities: &[QuantityBias]) -> String {
     let entry = |of: &QuantityBias| {
         let found = &of.found;
-        let experimental_deviation = match found.deviation {
-            Deviation::Known { experiment, .. } | Deviation::WithinExperiment { experiment } => Some(experiment),
-            Deviation::Unknown => None,
-        };
         json!({
             "quantity": of.quantity,
             "unit": of.unit,
@@ -156,7 +152,7 @@ pub(super) fn json(judgement: &Judgement<'_>, quantities: &[QuantityBias]) -> St
             "bias_interval": found.interval,
             "scatter": found.scatter,
             "model_deviation": found.model_deviation(),
-            "experimental_deviation": experimental_deviation,
+            "experimental_deviation": found.experimental_deviation,
         })
     };
     let kinds = KINDS.map(|(kind, name)| (name.to_owned(), judgement.tally_of(kind).by_word()));

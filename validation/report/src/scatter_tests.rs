@@ -42,7 +42,7 @@ fn comparisons_of_one_name_are_one_quantity_over_all_cases() {
         [("planar", 2), ("round", 1)]
     );
     assert!((run_out.found.bias - 1.0).abs() < 1e-12 && (run_out.found.scatter - 0.1).abs() < 1e-12);
-    assert_eq!(run_out.found.deviation, Deviation::Unknown, "nobody gave an uncertainty");
+    assert_eq!(run_out.found.experimental_deviation, None, "nobody gave an uncertainty");
 }
 
 #[test]

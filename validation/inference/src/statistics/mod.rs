@@ -21,7 +21,7 @@ pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
 pub use groups::grouped;
 pub use interpolation::{Extrapolation, interpolated};
 pub use mean::{mean, mean_and_variance, relative_l2};
-pub use model_bias::{Comparison, Deviation, ModelBias, model_bias};
+pub use model_bias::{Comparison, ModelBias, model_bias};
 pub use neighbour_scatter::neighbour_scatter;
 pub use percentile::percentile;
 pub use rank_correlation::rank_correlation;

@@ -28,25 +28,6 @@ pub struct Comparison {
     pub uncertainty: Option<f64>,
 }
 
-/// Standard deviation of the model's own scatter, as far as it is known.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Deviation {
-    /// Experimental uncertainties are known.
-    Known {
-        /// σ_M `[-]`.
-        model: f64,
-        /// σ_E `[-]`.
-        experiment: f64,
-    },
-    /// They are known and larger than the scatter of the comparisons.
-    WithinExperiment {
-        /// σ_E `[-]`.
-        experiment: f64,
-    },
-    /// At least one comparison has no experimental uncertainty.
-    Unknown,
-}
-
 /// Bias and scatter over the comparisons of one quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModelBias {
@@ -58,8 +39,10 @@ pub struct ModelBias {
     pub interval: (f64, f64),
     /// u: standard deviation of ln(M/E) `[-]`.
     pub scatter: f64,
-    /// The model's share of it.
-    pub deviation: Deviation,
+    /// σ_E `[-]`; none where a comparison has no experimental uncertainty.
+    pub experimental_deviation: Option<f64>,
+    /// σ_M `[-]`; none without σ_E, or where that is larger than the scatter.
+    model_deviation: Option<f64>,
 }
 
 /// Confidence level of the intervals `[-]`.
@@ -71,10 +54,7 @@ const FEWEST: usize = 3;
 impl ModelBias {
     /// σ_M `[-]`, where it can be told.
     pub fn model_deviation(&self) -> Option<f64> {
-        match self.deviation {
-            Deviation::Known { model, .. } => Some(model),
-            Deviation::WithinExperiment { .. } | Deviation::Unknown => None,
-        }
+        self.model_deviation
     }
 
     /// Bounds of the ratio M/E of a further comparison with 95 % confidence `[-]`: Student's factor in place of 2, and the
@@ -93,10 +73,10 @@ impl ModelBias {
 
     /// ln δ − m.
     fn shift(&self) -> f64 {
-        match self.deviation {
-            Deviation::Known { model, experiment } => 0.5 * (model * model - experiment * experiment),
-            Deviation::WithinExperiment { experiment } => -0.5 * experiment * experiment,
-            Deviation::Unknown => 0.0,
+        match (self.model_deviation, self.experimental_deviation) {
+            (Some(model), Some(experiment)) => 0.5 * (model * model - experiment * experiment),
+            (None, Some(experiment)) => -0.5 * experiment * experiment,
+            (_, None) => 0.0,
         }
     }
 }
@@ -114,18 +94,15 @@ pub fn model_bias(comparisons: &[Comparison]) -> Option<ModelBias> {
     let variance = logarithms.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (n - 1.0);
     let experiment: Option<f64> =
         comparisons.iter().map(|of| of.uncertainty.map(|sigma| sigma * sigma)).sum::<Option<f64>>().map(|sum| sum / n);
-    let deviation = match experiment {
-        None => Deviation::Unknown,
-        Some(square) if square > variance => Deviation::WithinExperiment { experiment: square.sqrt() },
-        Some(square) => Deviation::Known { model: (variance - square).sqrt(), experiment: square.sqrt() },
-    };
+    let model = experiment.and_then(|square| if square > variance { None } else { Some((variance - square).sqrt()) });
     let reach = student_quantile(CONFIDENCE, comparisons.len() - 1) * (variance / n).sqrt();
     let mut found = ModelBias {
         comparisons: comparisons.len(),
         bias: f64::NAN,
         interval: (f64::NAN, f64::NAN),
         scatter: variance.sqrt(),
-        deviation,
+        experimental_deviation: experiment.map(f64::sqrt),
+        model_deviation: model,
     };
     let centre = mean + found.shift();
     found.bias = libm::exp(centre);

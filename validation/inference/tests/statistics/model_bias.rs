@@ -1,6 +1,6 @@
 //! Bias and scatter of drawn comparisons.
 
-use bagnold_inference::statistics::{Comparison, Deviation, model_bias};
+use bagnold_inference::statistics::{Comparison, model_bias};
 use rand::{RngExt, SeedableRng};
 
 fn compared(ratios: &[f64], uncertainty: Option<f64>) -> Vec<Comparison> {
@@ -38,11 +38,11 @@ fn no_uncertainty_is_invented() {
     some[1].uncertainty = None;
     for comparisons in [some, compared(&ratios, None)] {
         let found = model_bias(&comparisons).expect("three");
-        assert_eq!((found.deviation, found.model_deviation()), (Deviation::Unknown, None));
+        assert_eq!((found.experimental_deviation, found.model_deviation()), (None, None));
         assert!((found.bias - libm::exp(0.3)).abs() < 1e-12, "the geometric mean");
     }
     let modest = model_bias(&compared(&ratios, Some(0.2))).expect("three");
-    assert_eq!(modest.deviation, Deviation::WithinExperiment { experiment: 0.2 });
+    assert_eq!(modest.experimental_deviation, Some(0.2));
     assert_eq!(modest.model_deviation(), None);
 }
 
