@@ -1,20 +1,12 @@
 //! Command-line arguments: the commands, their options and their help.
 
-mod examples;
 mod foreign;
-mod new;
 mod predict;
-mod store;
 mod sweep;
 mod work;
 
-pub(super) use examples::ExamplesArguments;
 pub(super) use foreign::{CompareArguments, ExportArguments, GrainsArguments, JudgeArguments, LeagueArguments};
-#[cfg(test)]
-pub(super) use new::Named;
-pub(super) use new::{NewArguments, NewCrate};
 pub(super) use predict::{BedLoadArguments, CollapseArguments, PredictAction, PredictArguments};
-pub(super) use store::{StoreAction, StoreArguments};
 pub(super) use sweep::{Cluster, Engine, SweepAction, SweepArguments};
 pub(super) use work::FigureOptions;
 pub use work::{ExecutionOptions, ResourceLimits};
@@ -22,6 +14,7 @@ pub use work::{ExecutionOptions, ResourceLimits};
 use crate::case::Tier;
 use clap::{ArgAction, Args, Parser, Subcommand};
 use std::path::PathBuf;
+use work::positive;
 
 const EXAMPLES: &str = "Examples:
   bagnold list                                 all cases and studies
@@ -119,6 +112,21 @@ This file fits one parameter to one value; data under [[hold_out]], in the same 
 With `law = \"mu-i\"` instead of `case`, a block fits that law to points (I, mu) without a simulation.
 Its data are { file = \"points.csv\" }, as `bagnold grains` writes it; its paths are those of the law, such as \"static_friction\".
 The output folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml (law.toml with draws).";
+
+const SHIPPED_EXAMPLES: &str = "Examples:
+  bagnold examples
+  bagnold calibrate examples/calibrations/mu-i-from-profiles.toml
+  bagnold sweep examples/sweeps/bed-load-1d-map.toml
+
+The output folder receives calibrations/*.toml, grains/*.toml and studies/*.toml with their data, scenes/*.toml and sweeps/*.toml.";
+
+const NEW_EXAMPLES: &str = "Examples:
+  bagnold new law my-law
+  cd my-law
+  cargo run -- run film.toml --out film
+
+The crate builds the program bagnold with one more law or case.
+It contains the law or case, a test against an exact solution, case files and a README with the next steps.";
 
 /// Simulates granular and sediment flows by smoothed particle hydrodynamics and judges them against exact solutions and experiments.
 #[derive(Debug, Parser)]
@@ -362,6 +370,80 @@ pub struct CalibrateArguments {
     /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
+}
+
+/// `bagnold examples`
+#[derive(Debug, Args)]
+#[command(after_help = SHIPPED_EXAMPLES)]
+pub struct ExamplesArguments {
+    /// Output folder; what an earlier call wrote there is replaced.
+    #[arg(long, value_name = "DIR", default_value = "examples")]
+    pub out: PathBuf,
+}
+
+/// `bagnold new`
+#[derive(Debug, Args)]
+#[command(after_help = NEW_EXAMPLES)]
+pub struct NewArguments {
+    /// Kind of crate to write: a law or a case.
+    #[command(subcommand)]
+    pub what: NewCrate,
+}
+
+/// Content of a new crate.
+#[derive(Debug, Subcommand)]
+pub enum NewCrate {
+    /// Write a crate with a constitutive law.
+    Law(Named),
+    /// Write a crate with a case.
+    Case(Named),
+    /// Refused with the command that writes a scene.
+    #[command(hide = true)]
+    Scene {
+        /// All that follows.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        ignored: Vec<String>,
+    },
+}
+
+/// Name and folder of a new crate.
+#[derive(Debug, Args)]
+pub struct Named {
+    /// Name of the crate and of its law or case: lower-case letters, digits and hyphens.
+    #[arg(value_name = "NAME")]
+    pub name: String,
+    /// Folder to create [default: NAME].
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
+}
+
+/// `bagnold store`
+#[derive(Debug, Args)]
+pub struct StoreArguments {
+    /// Action on stored results.
+    #[command(subcommand)]
+    pub action: StoreAction,
+    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout, else the
+    /// cache folder of the user].
+    #[arg(long, value_name = "DIR", global = true)]
+    pub store: Option<PathBuf>,
+}
+
+/// Action on stored results.
+#[derive(Debug, Clone, Copy, Subcommand)]
+pub enum StoreAction {
+    /// List stored results by program version: number, size, age.
+    List,
+    /// Delete entries, the oldest first.
+    #[command(group = clap::ArgGroup::new("limit").required(true).multiple(true))]
+    Prune {
+        /// Delete entries older than this.
+        #[arg(long, value_name = "DAYS", value_parser = positive, allow_negative_numbers = true, group = "limit")]
+        days: Option<f64>,
+        /// Delete the oldest entries until the total size falls below this.
+        #[arg(long, value_name = "GIB", value_parser = positive, allow_negative_numbers = true, group = "limit")]
+        size: Option<f64>,
+    },
 }
 
 #[cfg(test)]
