@@ -15,7 +15,7 @@ pub enum DevError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// What else keeps the work from being done, with its remedy.
+    /// Another obstacle to the work, with its remedy.
     #[error("{0}")]
     Stopped(String),
 }
