@@ -2,7 +2,7 @@
 
 use super::filling::holder;
 use super::flow::Dimension;
-use super::lattice::{LatticeGroup, groups};
+use super::lattice::groups;
 use super::measure::Measurand;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall};
@@ -70,7 +70,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Bodies in which no place of a particle lies, but in those before them or beyond a side. A large one is not searched to its end,
     /// for its cost is not judged yet.
     fn without_particles(&self) -> impl Iterator<Item = String> {
-        groups(&self.bodies, &self.sides, self.spacing).into_iter().flat_map(move |LatticeGroup { lattice, bodies }| {
+        groups(&self.bodies, &self.sides, self.spacing).into_iter().flat_map(move |(lattice, bodies)| {
             bodies.into_iter().filter_map(move |body| {
                 let mut sites = lattice.sites(self.sides.clip(self.bodies[body].extent()));
                 let is_of_another =

@@ -4,7 +4,7 @@ use super::behind_walls::{Permissions, Site};
 use super::cut_cells::{self, Part};
 use super::flow::Dimension;
 use super::geostatic::GeostaticStress;
-use super::lattice::{LatticeGroup, SiteLattice, groups};
+use super::lattice::{SiteLattice, groups};
 use super::setting::{SceneBody, SceneInlet, SceneWall};
 use super::sides::SceneSides;
 use super::surfaces::{NearestWall, Surfaces, is_taken};
@@ -38,7 +38,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let up = if pull > 0.0 { -across / pull } else { -self.down() };
         let weight = equation_of_state.reference_density * pull;
         let (mut all, mut hidden, mut free) = (0, 0, Vec::new());
-        for LatticeGroup { lattice, bodies: members } in &groups {
+        for (lattice, members) in &groups {
             let sites = self.held(lattice, members, walls);
             let permissions = self.permissions(self.cut_at_most);
             let behind = permissions.behind(&sites)?;
@@ -116,7 +116,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// All sites that bodies hold, with what becomes of each, also where walls take more of a body than they may.
     pub(super) fn survey(&self, walls: &Surfaces<D>) -> Vec<(Vector<D>, SiteFate)> {
         let mut fates = Vec::new();
-        for LatticeGroup { lattice, bodies: members } in &groups(&self.bodies, &self.sides, self.spacing) {
+        for (lattice, members) in &groups(&self.bodies, &self.sides, self.spacing) {
             let sites = self.held(lattice, members, walls);
             // of a body on both sides of a wall it is not known what is behind, but where it is near
             let near = |site: &Site<D>| site.nearest.is_some_and(|wall| wall.distance < 0.0);

@@ -88,32 +88,23 @@ impl<const D: usize> SiteLattice<D> {
     }
 }
 
-/// The bodies that are filled from one lattice.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct LatticeGroup<const D: usize> {
-    /// Lattice of the bodies.
-    pub(super) lattice: SiteLattice<D>,
-    /// Places of these bodies among all bodies.
-    pub(super) bodies: Vec<usize>,
-}
-
-/// All bodies by their lattices between some sides: those on the common one first, then one after the other those on their own.
+/// Places of all bodies by their lattices between some sides: those on the common one first, then one after the other those on their
+/// own.
 pub(super) fn groups<const D: usize>(
     bodies: &[impl SceneBody<D>],
     sides: &impl SceneSides<D>,
     spacing: f64,
-) -> Vec<LatticeGroup<D>> {
-    let mut common = LatticeGroup { lattice: SiteLattice::common(spacing), bodies: Vec::new() };
-    let mut own = Vec::new();
+) -> Vec<(SiteLattice<D>, Vec<usize>)> {
+    let (mut common, mut own) = (Vec::new(), Vec::new());
     for (number, body) in bodies.iter().enumerate() {
         let fitted = body.is_box().then(|| SiteLattice::of_box(sides.clip(body.extent()), spacing)).flatten();
         match fitted {
-            Some(lattice) => own.push(LatticeGroup { lattice, bodies: vec![number] }),
-            None => common.bodies.push(number),
+            Some(lattice) => own.push((lattice, vec![number])),
+            None => common.push(number),
         }
     }
-    if !common.bodies.is_empty() {
-        own.insert(0, common);
+    if !common.is_empty() {
+        own.insert(0, (SiteLattice::common(spacing), common));
     }
     own
 }
