@@ -40,7 +40,7 @@ pub use error::ProgramError;
 pub use simulation::{simulate_announced, warn_of_fast};
 pub use terminal::tell;
 
-use crate::case::{Limits, ParameterError, Registry};
+use crate::case::{Limits, ParameterError, Registry, pool};
 use crate::checkpoint;
 use crate::interruption::{self, Signal};
 use crate::registry::{REGISTRY, declare_build};
@@ -269,12 +269,7 @@ pub fn in_pool<T: Send, E: From<ParameterError> + Send>(
         let reason = format!("above {most}, eight times the processors; RAYON_NUM_THREADS counts as well");
         return Err(ParameterError::Threads { threads: asked, reason }.into());
     }
-    let threads = usize::from(threads.unwrap_or(0));
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| ParameterError::Threads { threads, reason: error.to_string() })?;
-    pool.install(act)
+    pool(threads.map_or(0, usize::from))?.install(act)
 }
 
 impl ResourceLimits {

@@ -31,7 +31,7 @@ pub use plan::progress::{Monitor, Progress, Silent};
 pub use plan::registry::Registry;
 pub(crate) use plan::request::only;
 pub use plan::request::{Request, Requested};
-pub use plan::schedule::{execute, share_out};
+pub use plan::schedule::{execute, pool, share_out};
 pub use shown::features::{FeatureOption, Features};
 pub use shown::tables::tables_to_add;
 

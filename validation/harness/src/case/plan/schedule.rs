@@ -23,6 +23,15 @@ struct Queue<J, R, E> {
     error: Option<E>,
 }
 
+/// A pool of a given number of threads; 0 stands for one per core, or what rayon's own variable says.
+///
+/// # Errors
+/// Threads that cannot be started.
+pub fn pool(threads: usize) -> Result<rayon::ThreadPool, ParameterError> {
+    let built = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    built.map_err(|error| ParameterError::Threads { threads, reason: error.to_string() })
+}
+
 /// The results of jobs, in the order of the jobs, begun in that order on the current rayon pool's number of threads: one thread
 /// each while there are more jobs than threads, a fair share for the last few. Every job finds a pool of its own as the current one.
 ///
@@ -47,11 +56,7 @@ pub fn share_out<J: Send, R: Send, E: From<ParameterError> + Send>(
                 state.free = state.free.saturating_sub(share);
                 (job, share)
             };
-            let outcome = rayon::ThreadPoolBuilder::new()
-                .num_threads(share)
-                .build()
-                .map_err(|error| ParameterError::Threads { threads: share, reason: error.to_string() }.into())
-                .and_then(|pool| pool.install(|| work(job)));
+            let outcome = pool(share).map_err(E::from).and_then(|pool| pool.install(|| work(job)));
             let mut state = lock();
             state.free += share;
             match outcome {
