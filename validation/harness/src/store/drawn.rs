@@ -85,7 +85,7 @@ impl Drawings {
         self.made.fetch_add(1, Ordering::Relaxed);
         let bytes = draw()?;
         if let Some((path, name)) = &place
-            && let Err(error) = entry::write_bytes(path, name, &bytes)
+            && let Err(error) = entry::RECORD.write(path, name, &bytes)
         {
             tracing::debug!("drawing {}: not kept: {error}", path.display());
         }

@@ -7,7 +7,7 @@ use std::io::{Error, ErrorKind, Result};
 use std::path::Path;
 
 /// What the record holds is identified by the sources' hash in its key.
-const RECORD: SealedFormat = SealedFormat { title: "bagnold record\n", version: 2, most: STORED };
+pub(crate) const RECORD: SealedFormat = SealedFormat { title: "bagnold record\n", version: 2, most: STORED };
 
 /// The record of a key in a file; `None` if there is no such file.
 ///
@@ -31,12 +31,7 @@ pub(crate) fn read_bytes(path: &Path, key: &str) -> Result<Option<Vec<u8>>> {
 
 /// Writes a key's record so that a reader sees all of it or nothing, also when several processes write it.
 pub(crate) fn write<R: Serialize>(path: &Path, key: &str, record: &R) -> Result<()> {
-    write_bytes(path, key, &postcard::to_stdvec(record).map_err(Error::other)?)
-}
-
-/// Writes a key's record of bytes in the same way.
-pub(crate) fn write_bytes(path: &Path, key: &str, record: &[u8]) -> Result<()> {
-    RECORD.write(path, key, record)
+    RECORD.write(path, key, &postcard::to_stdvec(record).map_err(Error::other)?)
 }
 
 #[cfg(test)]

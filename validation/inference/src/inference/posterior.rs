@@ -38,7 +38,7 @@ pub struct Posterior {
 
 /// Samples the posterior of a region's emulator.
 pub fn sample(region: &Region, seed: u64) -> Posterior {
-    let emulator = region.emulator();
+    let emulator = &region.emulator;
     let mut random = Random::new(seed);
     let squared = region.inflation * region.inflation;
     let cost = |point: &[f64]| -> f64 {

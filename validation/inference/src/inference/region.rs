@@ -38,7 +38,8 @@ impl Uncertainties {
 /// The parameters that agree with the data, in the unit cube, as the emulator has it.
 #[derive(Debug, Clone)]
 pub struct Region {
-    emulator: Emulator,
+    /// The emulator that it rests on.
+    pub emulator: Emulator,
     /// The best point, with the χ² that was evaluated there.
     pub minimum: LocalMinimum,
     /// The same point with the emulator's χ²: what its rises are counted from.
@@ -100,11 +101,6 @@ impl Region {
             minimum,
             base,
         }
-    }
-
-    /// The emulator that it rests on.
-    pub fn emulator(&self) -> &Emulator {
-        &self.emulator
     }
 
     /// Draws the curves of the profiles over their intervals.

@@ -40,7 +40,7 @@ pub(super) struct DatumText {
     /// Source of `value`
     source: Option<String>,
     /// Relative standard deviation of the noise of synthetic data, in place of `file` or `value` `[-]`
-    noise: Option<f64>,
+    pub(super) noise: Option<f64>,
     /// Points of a synthetic profile
     bins: Option<usize>,
 }
@@ -174,11 +174,6 @@ impl DatumText {
             source: self.source.clone().unwrap_or_default(),
         };
         Ok(self.value.map(datum).into_iter().collect())
-    }
-
-    /// Relative standard deviation of the noise of synthetic data `[-]`; none for data that are given.
-    pub(super) const fn noise(&self) -> Option<f64> {
-        self.noise
     }
 
     /// Synthetic data from the truth's answer: equidistant abscissas over the table of the first seed, or a metric, with noise.

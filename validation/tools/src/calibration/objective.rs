@@ -225,7 +225,7 @@ impl<'a> Objective<'a> {
     /// Reads the data of the plan; synthetic ones are simulated with the parameters' truth.
     pub(super) fn read_data(&mut self) -> Result<(), ToolError> {
         let blocks = &self.plan.blocks;
-        let is_made = |block: &usize| blocks[*block].data.iter().any(|text| text.noise().is_some());
+        let is_made = |block: &usize| blocks[*block].data.iter().any(|text| text.noise.is_some());
         let made: Vec<usize> = (0..blocks.len()).filter(is_made).collect();
         let mut truths = BTreeMap::new();
         if !made.is_empty() {
@@ -240,7 +240,7 @@ impl<'a> Objective<'a> {
         let mut noise = Random::new(self.plan.budget.seed);
         for (place, block) in blocks.iter().enumerate() {
             for text in &block.data {
-                self.data.extend(match text.noise().zip(truths.get(&place)) {
+                self.data.extend(match text.noise.zip(truths.get(&place)) {
                     Some((share, truth)) => {
                         text.make(place, share, truth, &mut noise).map_err(|reason| self.counterpart(block, reason))?
                     }
