@@ -7,7 +7,7 @@
 mod measured_points;
 
 use crate::physics::verdict::results;
-use bagnold_harness::case::Tier;
+use bagnold_harness::case::{CaseResult, Changes, Tier};
 use bagnold_harness::evidence::ValidationSet;
 use bagnold_harness::metric::{Metric, Quantity, Variant};
 use bagnold_report::{Baseline, GateList, MetricKey, RemovedGates, description};
@@ -132,6 +132,23 @@ fn accepted_values_are_no_older_than_their_gates_but_for_the_cases_named() {
     older.extend(quick.gates().map(|gate| &*gate.case).filter(|case| !judged.contains(case)));
     let older: Vec<&str> = older.into_iter().collect();
     assert_eq!(older, OLDER, "a case that is older now has to be simulated again, one that is not goes from the list");
+}
+
+#[test]
+fn axes_that_are_told_before_a_run_are_those_of_its_figures() {
+    let axes = |result: &CaseResult| -> BTreeSet<String> {
+        let curves = result.figures.iter().flat_map(|figure| &figure.panels).filter(|panel| panel.field.is_none());
+        curves.map(|panel| format!("{} over {}", panel.y.label, panel.x.label)).collect()
+    };
+    for case in REGISTRY.iter() {
+        let prepared = case.prepare(Tier::Quick, &Changes::default()).unwrap_or_else(|error| panic!("{error}"));
+        let told = axes(&CaseResult { figures: prepared.axes(), ..CaseResult::default() });
+        for result in results(case.name(), Tier::Quick) {
+            let drawn = axes(&result);
+            let untold: Vec<&String> = drawn.difference(&told).collect();
+            assert!(told.is_empty() || untold.is_empty(), "{} does not tell {untold:?}", case.name());
+        }
+    }
 }
 
 #[test]

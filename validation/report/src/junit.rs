@@ -40,7 +40,7 @@ pub fn put_refusal(path: &Path, message: &str) -> Result<(), FieldError> {
     put_junit(path, &document.to_string().expect("text that the crate itself has cleaned always serialises"))
 }
 
-/// A report as text. An expected failure is skipped, with the reason of its entry; a gate that disagrees with the list of
+/// A report as text. An expected failure is skipped, with the reason of its entry, and an inconclusive gate with its doubt; a gate that disagrees with the list of
 /// expected failures fails, as it fails the report.
 pub(super) fn text(judgement: &Judgement<'_>) -> String {
     let mut document = quick_junit::Report::new(judgement.report.title.as_str());
@@ -87,13 +87,14 @@ fn cases(case: &JudgedCase<'_>) -> Vec<TestCase> {
 fn status(judged: &JudgedMetric<'_>) -> Option<TestCaseStatus> {
     let severity = judged.severity?;
     let mut status = match severity {
-        Severity::Pass | Severity::Inconclusive => return Some(TestCaseStatus::success()),
-        Severity::ExpectedFailure => TestCaseStatus::skipped(),
+        Severity::Pass => return Some(TestCaseStatus::success()),
+        Severity::ExpectedFailure | Severity::Inconclusive => TestCaseStatus::skipped(),
         Severity::NewFailure | Severity::NotJudged | Severity::UnexpectedPass => {
             TestCaseStatus::non_success(NonSuccessKind::Failure)
         }
     };
-    let message = [statement(judged), judged.note()].join(". ");
+    let note = judged.doubt.map_or_else(|| judged.note(), |doubt| doubt.words().to_owned());
+    let message = [statement(judged), note].join(". ");
     status.set_type(severity.word()).set_message(message.trim_end_matches(". "));
     if severity.is_error() {
         status.set_description(reason(judged));
@@ -143,6 +144,13 @@ mod tests {
         report.cases[0].result.metrics = vec![gated("velocity_l2", 0.5)];
         let passes = xml(&report);
         assert!(passes.contains("failures=\"1\"") && passes.contains("remove the entry"), "{passes}");
+    }
+
+    #[test]
+    fn an_inconclusive_gate_is_skipped_with_its_doubt() {
+        let doubtful = gated("velocity_l2", 0.5).known_to(crate::metric::Origin::Numerical, Some(3.0), "spacing");
+        let xml = xml(&report(vec![case("film", vec![doubtful])]));
+        assert!(xml.contains("skipped=\"1\"") && xml.contains("type=\"inconclusive\""), "{xml}");
     }
 
     #[test]

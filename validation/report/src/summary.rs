@@ -66,7 +66,7 @@ fn predictions(metrics: &[Metric]) -> String {
         let beyond = metric.prediction.iter().flat_map(|prediction| &prediction.warnings);
         let beyond: Vec<String> = beyond.map(|warning| format!("  less certain: {warning}\n")).collect();
         Some(format!(
-            "`{name}` to quote: {value} (95 %: {lower} … {upper}){in_metres}, from the errors of Bagnold in {comparisons} comparisons with experiments\n{}",
+            "`{name}` to quote: {value} (95 %: {lower} … {upper}){in_metres}, from the errors of Bagnold in {comparisons} comparisons with published results\n{}",
             beyond.concat()
         ))
     };

@@ -6,13 +6,13 @@ use super::{Exit, Session, decks, simulation, terminal};
 use crate::case::{Changes, ParameterError};
 use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::league;
-use crate::metric::Verdict;
+use crate::metric::{Metric, Verdict};
 use crate::output::{FileError, OutputFolder, write_whole};
 use crate::report::{self, Severity, Tally};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Gates without data that are named on the terminal.
+/// Gates without data, or that pass, which are named on the terminal.
 const MOST_NAMES: usize = 6;
 
 /// Judges submissions, or prints an empty one.
@@ -78,9 +78,15 @@ fn verdicts(judgement: &CodeComparison) -> String {
     let line = |judged: &judge::JudgedCode| {
         let tally = judged.tally();
         let name = format!("{} {}", judged.submission.code.name, judged.submission.code.version);
-        let failed =
-            judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
-        let table = report::of_metrics(failed, terminal::shape());
+        let foreign = || judged.metrics.iter().filter_map(|one| one.foreign.as_ref());
+        let passes = || foreign().filter(|own| own.verdict() == Verdict::Pass).count();
+        // few gates are shown as they are
+        let is_shown = |own: &&Metric| match own.verdict() {
+            Verdict::Fail => true,
+            Verdict::Pass => passes() <= MOST_NAMES,
+            _ => false,
+        };
+        let table = report::of_metrics(foreign().filter(is_shown), terminal::shape());
         let nothing = match tally.all() - tally.of(Severity::NotJudged) {
             0 if tally.all() == 0 => "no gate was judged: the case has none; a scene has those of its [[measured]]\n",
             0 => "no gate was judged; the page lists the data that each gate needs\n",

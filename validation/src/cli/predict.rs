@@ -107,7 +107,10 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
             format!("{median} kg/(m s), median of {} runs near this Shields number", rates.number)
         },
     );
-    text += &format!("measured      {measured}; formula of Wong & Parker (2006) {} kg/(m s)\n", of(own.formula * unit));
+    text += &format!(
+        "measured      {measured}; formula of Wong & Parker (2006), exponent 1.6: {} kg/(m s)\n",
+        of(own.formula * unit)
+    );
     let (shields, velocity) = (of(own.stream.shields_number()), of(own.velocity));
     text += &format!("Shields number {shields} at a mean velocity of {velocity} m/s\n");
     if flume.width.is_some() {

@@ -109,6 +109,8 @@ pub trait Case: Sync + 'static {
     const ORIGIN: CodeOrigin = CodeOrigin::ELSEWHERE;
     /// Whether only its runs tell the axes of its figures: headings of measurements are checked behind them.
     const AXES_BY_RUNS: bool = false;
+    /// Axes of figures that are there behind the runs only.
+    const AXES_OF_RUNS: &'static [[&'static str; 2]] = &[];
     /// Data that the case accepts for a run from an external code, besides single numbers.
     const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema::NUMBERS;
     /// Flows.

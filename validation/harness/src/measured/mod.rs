@@ -7,7 +7,7 @@ mod reading;
 
 pub use column::ColumnSource;
 pub use place::{COARSE, HALF_A_ROW, coarse_in_words};
-pub use reading::WantedColumns;
+pub use reading::{WantedColumns, renamed};
 
 use crate::case::{CaseResult, ParameterError, PreparedCase};
 use crate::evidence::NumberColumn;
@@ -191,7 +191,7 @@ impl Measurements {
         let remarks = (compared < all).then(left_out).into_iter().chain(curve.coarse.clone());
         let confidence = self.said.confidence.unwrap_or(Confidence::Low);
         let metric = Metric::observed("overlay_residual", &variant, curve.residual, "-")
-            .against(Some(0.0), &self.source(), confidence)
+            .against(None, &self.source(), confidence)
             .remarked(remarks.reduce(|all, own| format!("{all}; {own}")))
             .known_to(Origin::Numerical, Some(curve.by_resolution), COARSE)
             .of_kind(MetricKind::Validation);

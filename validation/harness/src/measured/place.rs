@@ -49,7 +49,8 @@ pub fn coarse_in_words(points: &[(f64, f64)], unit: &str) -> Option<String> {
     let most = four_digits(coarse.iter().copied().reduce(f64::max)?);
     let (count, all) = (coarse.len(), points.len());
     Some(format!(
-        "half a row of particles, up to {most} {unit}, counts in place of the uncertainty at {count} of {all} measurements"
+        "half a row of particles, which moves the value by up to {most} {unit}, counts in place of the uncertainty at {count} of {all} \
+         measurements"
     ))
 }
 
@@ -253,7 +254,7 @@ fn too_many(measurements: &Measurements, figures: &[Figure], several: &[Matching
     };
     let names: Vec<String> = several.iter().map(name).collect();
     let defect = format!("{} are the axes of several panels: {}", axes(measurements), names.join("; "));
-    let remedy = "name one above the table by `# figure: NAME`, and if needed `# panel: TITLE`";
+    let remedy = "name one above the table by `# figure: NAME`, and if needed `# panel: TITLE`; give a copy of the file for each";
     FieldError::finding("columns", defect, remedy).in_file(&measurements.path)
 }
 

@@ -133,7 +133,10 @@ fn parse(
 }
 
 /// The names and units that a plan gives the columns; empty for those that are not meant.
-fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<Vec<String>, FieldError> {
+///
+/// # Errors
+/// A text that is no heading of the file, or states no unit or another one.
+pub fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<Vec<String>, FieldError> {
     let mut renamed = vec![String::new(); headings.len()];
     for (name, given) in names {
         for one in given.as_array().map_or(std::slice::from_ref(given), Vec::as_slice) {
@@ -143,7 +146,8 @@ fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<V
             if !headings.iter().any(|own| is_meant(own)) {
                 let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
                 let own = headings.iter().find(|own| **own == text).or(headings.last()).unwrap_or(&"toe");
-                let remedy = format!("write the heading and its unit in brackets, such as {name} = \"{own} [cm]\"");
+                let own = name_and_unit(own).map_or_else(|| format!("{own} [cm]"), |_| (*own).to_owned());
+                let remedy = format!("write the heading and its unit in brackets, such as {name} = \"{own}\"");
                 return Err(FieldError::new(&format!("columns.{name}"), one, &rule, &remedy));
             }
             let stated = bare.rsplit_once('(').and_then(|(_, rest)| rest.strip_suffix(')'));

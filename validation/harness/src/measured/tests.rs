@@ -96,7 +96,7 @@ fn a_resolution_that_counts_in_place_of_uncertainties_is_told() {
     assert_eq!(
         metric.remark.as_deref(),
         Some(
-            "`sand` has a value at 3 of 4 measurements; half a row of particles, up to 0.05 m, counts in place of the uncertainty at \
+            "`sand` has a value at 3 of 4 measurements; half a row of particles, which moves the value by up to 0.05 m, counts in place of the uncertainty at \
              2 of 3 measurements"
         )
     );
@@ -171,6 +171,20 @@ fn lengths_and_times_are_taken_where_the_axes_are_ratios_of_them() {
     assert!(near(series.error[0], 0.1), "{:?}", series.error);
     // on the curve, then a tenth of r0 above it: one uncertainty
     assert!(near(own.metrics[0].value, 0.5f64.sqrt()), "{}", own.metrics[0].value);
+    // a name with a minus sign is also read with a hyphen
+    let mut way = CaseResult {
+        figures: vec![Figure::new(
+            "way",
+            "",
+            vec![Panel::new("", Axis::linear("t [s]"), {
+                Axis::linear("(front − r0)/(a r0) [-]").over("front − r0", "m", [0.1])
+            })],
+        )],
+        ..result()
+    };
+    way.figures[0].panels[0].line("sand", 0, [(0.0, 0.0), (1.0, 1.0)]);
+    read("t [s],front - r0 [cm],uncertainty [cm]\n0.5,5,1\n").expect("a table").draw(&mut way).expect("drawn");
+    assert!(near(way.metrics[0].value, 0.0), "{}", way.metrics[0].value);
     // the ratio itself may be given along one axis
     let mixed = "x/r0 [-],thickness [mm],uncertainty [cm]\n1,37.5,0.5\n";
     let mut own = with_scales([0.05, 0.05]);

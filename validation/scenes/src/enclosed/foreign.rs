@@ -67,7 +67,10 @@ pub(crate) fn observe<S: Dimension<D>, const D: usize>(
         None => {
             let name = &run.name;
             let why = if last > end { "the measurements last longer" } else { "it ends before" };
-            tracing::warn!("scene {name}: the given front is not compared at the scene's end, {end} s: {why}");
+            tracing::warn!(
+                "scene {name}: the given front is not compared at the scene's end, {} s: {why}",
+                run.duration
+            );
             samples.clone()
         }
     };

@@ -113,8 +113,11 @@ impl StudyCheck {
             .with_snapshot_tolerance(1e-6, self.drift())
             .of_user();
         let Some(source) = &self.source else { return metric };
-        // of a distance from a measured series, none is perfect
-        let expected = self.read.measured().map_or(self.reference, |_| Some(0.0));
+        // of a distance from a measured series, none is perfect; a residual in uncertainties is no quantity of an experiment
+        let expected = match self.read {
+            CheckedQuantity::Distance(_, _, Distance::Residual) => None,
+            _ => self.read.measured().map_or(self.reference, |_| Some(0.0)),
+        };
         let metric = metric.against(expected, source, self.confidence);
         metric.known_to(Origin::Experiment, self.standard_uncertainty, source)
     }

@@ -1,10 +1,11 @@
 //! Open questions of a calibration, in sentences: of the search, of the fit, of the intervals.
 
 use super::law;
-use super::plan::CalibrationPlan;
+use super::plan::{CalibratedParameter, CalibrationPlan};
 use super::result::DatumComparison;
 use crate::inference::diagnosis::{outliers, widest_step};
-use crate::inference::{Answer, Explored, ParameterLabel, SerialCorrelation, Termination, UNLIKELY, assess};
+use crate::inference::search::Evaluated;
+use crate::inference::{Answer, Explored, ParameterLabel, Region, SerialCorrelation, Termination, UNLIKELY, assess};
 use crate::number::{four_digits, short_digits};
 
 /// Everything that a search and its region leave open, the gravest first.
@@ -18,6 +19,7 @@ pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison
             findings.extend(of_fit(plan.parameters.len(), explored.region.p_value, fit));
             findings.extend(answer.correlation.map(correlated));
             findings.extend(stepped(plan, answer, explored, fit));
+            findings.extend(rough(plan, answer, &explored.region));
             findings.extend(of_region(plan, explored));
             findings.extend(law::beyond(plan, &plan.values(&answer.search.best), fit));
         }
@@ -104,11 +106,44 @@ fn stepped(plan: &CalibrationPlan, answer: &Answer, explored: &Explored, fit: &[
     let places: Vec<String> = (0..ends[0].len()).filter(|&k| ends[0][k] != ends[1][k]).map(name).collect();
     Some(format!(
         "χ² has steps, which more evaluations do not settle: `{}` is the same at {}, where it should differ by {} σ; refine \
-         `spacing`, raise the `thickness` of front gauges, fit a series, or set `repeats`",
+         `spacing`, raise the `thickness` of front gauges{}{}",
         fit[step.datum].label,
         places.join(", "),
-        short_digits(step.promised, 2)
+        short_digits(step.promised, 2),
+        if fit[step.datum].at.is_none() { ", fit a series" } else { "" },
+        if plan.repeats.count == 1 { ", or set `repeats`" } else { ", or give more `repeats`" }
     ))
+}
+
+/// Finding of runs whose χ² lies farther from its smooth fit than what bounds the intervals.
+fn rough(plan: &CalibrationPlan, answer: &Answer, region: &Region) -> Option<String> {
+    let of_run = |run: &Evaluated| Some((run.point.clone(), run.chi_squared?));
+    let near: Vec<(Vec<f64>, f64)> = answer.search.history.iter().filter_map(of_run).collect();
+    let near: Vec<(Vec<f64>, f64)> = near.into_iter().filter(|(point, _)| region.rise(point) <= region.limit).collect();
+    let off = |(point, own): &(Vec<f64>, f64)| (own - region.emulator.chi_squared(point)).powi(2);
+    let scatter = (near.iter().map(off).sum::<f64>() / near.len() as f64).sqrt();
+    let least = near.iter().map(|run| run.1).reduce(f64::min)?;
+    let alike = || near.iter().filter(|run| run.1 <= least + region.limit).map(|run| plan.values(&run.0));
+    let span = |(k, parameter): (usize, &CalibratedParameter)| {
+        let ends = [f64::min, f64::max].map(|end| alike().map(|values| values[k]).reduce(end));
+        let [from, to] = ends.map(|end| four_digits(end.unwrap_or(f64::NAN)));
+        format!("`{}` {from} … {to}", parameter.name)
+    };
+    let spans: Vec<String> = plan.parameters.iter().enumerate().map(span).collect();
+    let [scattered, bound] = [(scatter, 2), (region.limit, 3)].map(|(value, digits)| short_digits(value, digits));
+    let lower = near.iter().filter(|run| run.1 < region.minimum.chi_squared).count();
+    // repeats scatter, and their smooth fit is what counts
+    (scatter > region.limit).then(|| match plan.repeats.count {
+        1 => format!(
+            "χ² of single runs scatters by {scattered} about its smooth fit, more than the {bound} that bound the intervals: the \
+             runs at {} agree alike, so take no narrower interval; refine `spacing`, or set `repeats`",
+            spans.join(", ")
+        ),
+        _ => format!(
+            "χ² of single runs scatters by {scattered} between `repeats`: the best point is that of its smooth fit through all \
+             runs, of which {lower} have a lower χ² by chance"
+        ),
+    })
 }
 
 fn of_region(plan: &CalibrationPlan, explored: &Explored) -> Vec<String> {

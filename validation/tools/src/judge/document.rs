@@ -92,14 +92,15 @@ pub(super) fn junit(judgement: &CodeComparison) -> String {
         let mut suite = TestSuite::new(name.trim());
         suite.add_test_cases(judged.metrics.iter().filter_map(|one| {
             let gate = one.foreign.as_ref().unwrap_or(&one.own).gate.as_ref()?;
+            let limit = gate.limit.in_words(|bound| with_unit(bound, &one.own.unit));
+            let value =
+                one.foreign.as_ref().map(|own| format!("{}, limit {limit}", with_unit(own.value, &one.own.unit)));
+            let said = value.unwrap_or_else(|| format!("limit {limit}"));
             let status = match one.verdict() {
                 Some(Verdict::Pass) => TestCaseStatus::success(),
                 Some(Verdict::Fail) => {
-                    let value = one.foreign.as_ref().map_or(f64::NAN, |foreign| foreign.value);
                     let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-                    let limit = gate.limit.in_words(|bound| with_unit(bound, &one.own.unit));
-                    status.set_type(Severity::NewFailure.word());
-                    status.set_message(format!("{}, limit {limit}", with_unit(value, &one.own.unit)));
+                    status.set_type(Severity::NewFailure.word()).set_message(said.as_str());
                     status
                 }
                 Some(Verdict::Observed) => return None,
@@ -112,7 +113,8 @@ pub(super) fn junit(judgement: &CodeComparison) -> String {
             let variant = &one.own.variant;
             let test = if variant.is_empty() { one.own.name.clone() } else { format!("{} [{variant}]", one.own.name) };
             let mut test = TestCase::new(test, status);
-            test.set_classname(format!("bagnold.{}", judgement.own.name)).set_system_out(gate.reason.clone());
+            test.set_classname(format!("bagnold.{}", judgement.own.name))
+                .set_system_out(format!("{said}; {}", gate.reason));
             Some(test)
         }));
         document.add_test_suite(suite);

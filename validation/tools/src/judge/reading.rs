@@ -7,9 +7,9 @@ use crate::case::{
     ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParameterError, ParticleFrame, RunScales,
 };
 use crate::input::{self, FieldError, TextTable, did_you_mean, name_and_unit, nearest, of_repeats, unit};
-use crate::measured::ColumnSource;
+use crate::measured::{ColumnSource, renamed};
 use crate::output::FileError;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
@@ -35,10 +35,13 @@ pub(super) fn read(
     let plan = |texts: &_, items, field: &str| plan(texts, items, scales, field);
     let columns = |table: &TableFile, items, field: &str| -> Result<NamedColumns, ParameterError> {
         let file = folder.join(&table.file);
-        let read = read_text_table(&file)?;
-        let by_headings = || by_headings(&read, items).map_err(|error| error.within(field));
-        let columns = if table.columns.is_empty() { &by_headings()? } else { &table.columns };
-        Ok(of_table(&read, &plan(columns, items, field)?, &file)?)
+        let mut read = read_text_table(&file)?;
+        let columns = if table.columns.is_empty() {
+            by_headings(&read, items).map_err(|error| error.within(field))?
+        } else {
+            of_lists(&mut read, &table.columns).map_err(|error| error.within(field))?
+        };
+        Ok(of_table(&read, &plan(&columns, items, field)?, &file)?)
     };
     let mut given = ExternalData::default();
     if let Some(files) = &run.particles {
@@ -95,6 +98,36 @@ pub(crate) fn plan(
             Ok((item, source, factor, field))
         })
         .collect()
+}
+
+/// The same columns where a list names those of repeats, which then have one heading in the table: it gives their mean.
+fn of_lists(
+    table: &mut TextTable,
+    columns: &BTreeMap<String, toml::Value>,
+) -> Result<BTreeMap<String, toml::Value>, FieldError> {
+    let mut columns = columns.clone();
+    for (name, value) in columns.iter_mut().filter(|(_, value)| value.is_array()) {
+        let own = BTreeMap::from([(name.clone(), value.clone())]);
+        let given: Vec<&str> = table.headings.iter().map(String::as_str).collect();
+        let meant = renamed(&given, &own)?;
+        let headings: BTreeSet<&String> = meant.iter().filter(|heading| !heading.is_empty()).collect();
+        let (Some(heading), 1) = (headings.first(), headings.len()) else {
+            return Err(FieldError::new(
+                &format!("columns.{name}"),
+                value,
+                "headings of one unit",
+                "convert the columns",
+            ));
+        };
+        *value = heading.as_str().into();
+        table
+            .headings
+            .iter_mut()
+            .zip(&meant)
+            .filter(|(_, new)| !new.is_empty())
+            .for_each(|(own, new)| own.clone_from(new));
+    }
+    Ok(columns)
 }
 
 /// Columns that a file's headings name, with the first as what the others are given over.
@@ -289,6 +322,22 @@ fn in_si(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_of_repeats_count_by_their_mean_if_they_have_one_unit() {
+        let read = |list: &str| -> Result<Vec<f64>, FieldError> {
+            let mut table =
+                TextTable::parse("t [s],run 1 (cm),run 2 (cm)\n0,1,3\n1,2,6\n", Path::new("a.csv")).expect("a table");
+            let columns = toml::from_str(&format!("front = {list}")).expect("TOML");
+            let columns = of_lists(&mut table, &columns)?;
+            table.column(columns["front"].as_str().expect("a heading"), "columns.front", Path::new("a.csv"))
+        };
+        assert_eq!(read("[\"run 1 (cm) [cm]\", \"run 2 (cm) [cm]\"]"), Ok(vec![2.0, 4.0]));
+        let units = read("[\"run 1 (cm) [cm]\", \"run 2 (cm) [mm]\"]").expect_err("cm and mm").to_string();
+        assert!(units.contains("but must be the unit that the heading states"), "{units}");
+        let unknown = read("[\"run 3 [cm]\"]").expect_err("no such column").to_string();
+        assert!(unknown.contains("a heading of the file with its unit: t [s], run 1 (cm), run 2 (cm)"), "{unknown}");
+    }
 
     /// OpenFOAM's `foamToVTK` names a grid by blocks; the boundary is no part of the flow.
     #[test]

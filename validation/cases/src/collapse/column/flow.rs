@@ -323,14 +323,16 @@ impl<const D: usize> ColumnFlow<D> {
         STIFFNESS * self.density() * self.gravity * self.initial_height() * self.half_width
     }
 
-    /// End of the bed `[m]`: well beyond the longest published run-out.
+    /// End of the bed `[m]`: well beyond the longest published run-out, which is that of sand; less friction carries grains farther.
     fn bed_end(&self) -> f64 {
         let a = self.aspect_ratio;
+        let sand = TABLE_2_SAND.law.static_friction;
+        let farther = (sand / self.material.strength_at_rest(1.0).unwrap_or(sand)).max(1.0);
         // in space the bed costs more than the grains
         let end = if D == 2 {
             2.0 + 1.5 * (2.7 * a).min(3.7 * libm::pow(a, 0.7))
         } else {
-            1.5 + 1.3 * (1.35 * a).min(1.6 * a.sqrt())
+            1.5 + 1.3 * farther * (1.35 * a).min(1.6 * a.sqrt())
         };
         self.half_width * end
     }

@@ -46,7 +46,8 @@ pub struct ColumnCase<const D: usize>;
 
 impl<const D: usize> Case for ColumnCase<D> {
     const NAME: &'static str = if D == 2 { "column-planar" } else { "column-round" };
-    const AXES_BY_RUNS: bool = true;
+    const AXES_OF_RUNS: &'static [[&'static str; 2]] =
+        &[["u [m/s]", "y/r0 [-]"], ["t/√(h0/g) [-]", "energy/released [-]"]];
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = if D == 2 {
         "planar columns of μ(I) grains: run-out, height and stopping time against the published laws"

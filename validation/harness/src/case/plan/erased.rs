@@ -15,7 +15,7 @@ use crate::case::{
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::control::{self, Control};
 use crate::evidence::completed;
-use crate::figure::Figure;
+use crate::figure::{Axis, Figure, Panel};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
@@ -390,7 +390,12 @@ impl<C: Case> PreparedCase for CasePlan<C> {
 
     fn axes(&self) -> Vec<Figure> {
         let is_told = C::ORIGIN == CodeOrigin::PACKAGE && !C::AXES_BY_RUNS;
-        if is_told { self.asked().figures } else { Vec::new() }
+        if !is_told {
+            return Vec::new();
+        }
+        let panel = |[x, y]: &[&str; 2]| Panel::new("", Axis::linear(x), Axis::linear(y));
+        let of_runs = Figure::new("further figures", "", C::AXES_OF_RUNS.iter().map(panel).collect());
+        self.asked().figures.into_iter().chain([of_runs]).collect()
     }
 
     fn conditions(&self, run: usize) -> Option<Conditions> {
