@@ -2,7 +2,7 @@
 
 use super::{ChannelObservation, ChannelSeries, MomentumBalance};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
-use crate::shared::Observed;
+use crate::input::FieldError;
 use crate::statistics::{BlockProfile, ProfilePoint};
 
 /// Possible data of a run of water over a fixed bed.
@@ -34,7 +34,7 @@ const OF_PROFILE: [&str; 5] = ["velocity_rms", "semi_log_slope", "velocity_l2", 
 /// Share of the series at the end that is averaged.
 const LAST: f64 = 0.25;
 
-pub(crate) fn observe(given: &ExternalData) -> Observed<ChannelObservation> {
+pub(crate) fn observe(given: &ExternalData) -> Result<ExternalObservation<ChannelObservation>, FieldError> {
     let mut measured = Vec::new();
     let time = given.series("time").to_vec();
     measured.extend(["mean_velocity", "bed_shear"].iter().filter(|name| !given.series(name).is_empty()));

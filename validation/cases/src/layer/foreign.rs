@@ -4,7 +4,6 @@ use super::Layer;
 use super::probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema, ParticleFrame};
 use crate::input::FieldError;
-use crate::shared::Observed;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::Snapshot;
 
@@ -74,7 +73,10 @@ const LAST: f64 = 0.25;
 ///
 /// # Errors
 /// Columns that are missing beside others.
-pub(crate) fn observe(layer: &Layer<'_>, given: &ExternalData) -> Observed<LayerObservation> {
+pub(crate) fn observe(
+    layer: &Layer<'_>,
+    given: &ExternalData,
+) -> Result<ExternalObservation<LayerObservation>, FieldError> {
     let mut measured = Vec::new();
     let mut observation = unmeasured();
     if let Some(end) = given.pictures.last().map(|picture| picture.time) {

@@ -15,9 +15,6 @@ use bagnold_number::four_digits;
 /// A quantity over the height.
 pub(crate) type OverHeight<'a> = &'a (dyn Fn(f64) -> f64 + Sync);
 
-/// A run's observation from what another code gives, or what is wrong with that.
-pub(crate) type Observed<O> = Result<crate::case::ExternalObservation<O>, crate::input::FieldError>;
-
 /// Transport of bed load in the units of flumes with its 95 % interval by a source, from q* and its standard uncertainty `[-]`; none without a
 /// value.
 pub(crate) fn transport_in_units(stream: &Stream, transport: f64, uncertainty: f64, by: &str) -> Option<String> {

@@ -7,7 +7,6 @@ use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSch
 use crate::channel::{self, BlockProfile, ProfilePoint};
 use crate::input::FieldError;
 use crate::metric::Quantity;
-use crate::shared::Observed;
 use crate::statistics::BLOCKS;
 
 /// Possible data of a run.
@@ -62,7 +61,10 @@ fn names(groups: &[&[Quantity]]) -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// A 1-D layer to compare with that cannot be computed.
-pub(super) fn observe(run: &BedLoadFlow, given: &ExternalData) -> Observed<BedLoadObservation> {
+pub(super) fn observe(
+    run: &BedLoadFlow,
+    given: &ExternalData,
+) -> Result<ExternalObservation<BedLoadObservation>, FieldError> {
     let water = channel::foreign::observe(given)?.observation;
     let mut measured = Vec::new();
     let (height, velocity) = (given.profile("height"), given.profile("grain_velocity"));

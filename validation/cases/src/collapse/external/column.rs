@@ -7,9 +7,9 @@ use crate::collapse::interior::PROFILE_TIME;
 use crate::collapse::metrics::other_codes::MID_COLLAPSE;
 use crate::collapse::metrics::quantities::*;
 use crate::collapse::{Collapse, ColumnFlow};
+use crate::input::FieldError;
 use crate::metric::Quantity;
 use crate::setup::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
-use crate::shared::Observed;
 use bagnold_solver::weakly_compressible::Snapshot;
 
 /// Possible data of a column's run.
@@ -79,7 +79,10 @@ const STILL: f64 = 0.1;
 /// Distance of a picture from a time of the metrics over √(h_0/g) `[-]`.
 const NEAR: f64 = 0.15;
 
-pub(crate) fn observe<const D: usize>(run: &ColumnFlow<D>, given: &ExternalData) -> Observed<Collapse> {
+pub(crate) fn observe<const D: usize>(
+    run: &ColumnFlow<D>,
+    given: &ExternalData,
+) -> Result<ExternalObservation<Collapse>, FieldError> {
     let mut collapse = Collapse {
         top: f64::NAN,
         centroid: f64::NAN,

@@ -5,7 +5,7 @@ use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSch
 use crate::collapse::metrics::quantities::*;
 use crate::collapse::slope::EARLIEST_REST;
 use crate::collapse::{Collapse, SlopeCollapse, SlopeFlow};
-use crate::shared::Observed;
+use crate::input::FieldError;
 
 /// Possible data of a run on a slope.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
@@ -52,7 +52,7 @@ const REACH: f64 = 3.0;
 ///
 /// # Errors
 /// Columns that are missing beside others; particles out of reach.
-pub(crate) fn observe(run: &SlopeFlow, given: &ExternalData) -> Observed<SlopeCollapse> {
+pub(crate) fn observe(run: &SlopeFlow, given: &ExternalData) -> Result<ExternalObservation<SlopeCollapse>, FieldError> {
     let r = run.reservoir_length;
     let room = Room {
         spacing: run.spacing(),

@@ -3,8 +3,8 @@
 use super::flow::HydrostaticFlow;
 use super::metrics::{HEIGHT_DRIFT, NORMAL_STRESS_L2, PRESSURE_L2, RMS_SPEED};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
+use crate::input::FieldError;
 use crate::layer::{LayerObservation, TimeSeries, foreign};
-use crate::shared::Observed;
 
 /// Possible data of a run.
 pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
@@ -29,7 +29,10 @@ pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
 ///
 /// # Errors
 /// None yet: columns that are missing make what needs them unmeasured.
-pub(super) fn observe(run: &HydrostaticFlow, given: &ExternalData) -> Observed<LayerObservation> {
+pub(super) fn observe(
+    run: &HydrostaticFlow,
+    given: &ExternalData,
+) -> Result<ExternalObservation<LayerObservation>, FieldError> {
     let mut measured = Vec::new();
     let mut observation = foreign::unmeasured();
     if !given.profile("height").is_empty() {
