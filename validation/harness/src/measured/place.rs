@@ -231,11 +231,12 @@ fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {
         there.entry(axes).or_default().insert(&figure.name);
     }
     let listed = |(axes, figures): (&String, &BTreeSet<&str>)| {
-        let others = figures.len() - 1;
+        let named: Vec<&str> = figures.iter().take(2).copied().collect();
+        let others = figures.len() - named.len();
         let others = if others == 0 { String::new() } else { format!(" and {others} more") };
-        figures.first().map(|first| format!("{first}{others}: {axes}"))
+        format!("{}{others}: {axes}", named.join(", "))
     };
-    let mut there: Vec<String> = there.iter().filter_map(listed).collect();
+    let mut there: Vec<String> = there.iter().map(listed).collect();
     there.sort();
     let rule = format!("the axes of one of the case's figures ({})", there.join("; "));
     let units = [&measurements.abscissa.unit, &measurements.measured.unit];

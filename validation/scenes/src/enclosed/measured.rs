@@ -13,7 +13,6 @@ pub struct MeasuredSeries {
     /// Source of the numbers.
     pub source: String,
     /// Times `[s]` and values in the gauge's unit, positive.
-    #[serde(default)]
     #[schemars(transform = filled("at least one row", "give time and value of every point, or name a `file` of measurements"))]
     pub points: Vec<(f64, f64)>,
     /// File of measurements with these points, where they stand in one: any units, repeats as their mean.

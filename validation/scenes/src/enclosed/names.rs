@@ -81,10 +81,6 @@ pub(super) fn check_measured(
             return Err(ParameterError::field(&field("gauge"), value, "the name of a gauge", "correct the name"));
         }
         check_text(&field("source"), &measured.source)?;
-        if measured.points.is_empty() {
-            let remedy = "give time and value of every point, or name a `file` of measurements";
-            return Err(ParameterError::field(&field("points"), "missing", "", remedy));
-        }
         if let Some(row) = measured.points.iter().position(|&(time, value)| !(time >= 0.0 && value > 0.0)) {
             let (time, value) = measured.points[row];
             let name = field(&format!("points[{row}]"));
