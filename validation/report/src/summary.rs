@@ -35,7 +35,10 @@ pub fn of_case(judged: &JudgedCase<'_>, terminal: Terminal) -> String {
     let hidden = judged.metrics.iter().filter(|own| !is_shown(own)).count();
     let hidden =
         if hidden > 0 { format!("{} that pass: shown with -v\n", plural(hidden, "row")) } else { String::new() };
-    heading(case, terminal) + &table(rows(judged, is_shown), terminal) + &hidden + &predictions
+    let doubts = judged.metrics.iter().filter(|own| is_own(own)).filter_map(|own| Some((own.metric, own.doubt?)));
+    let doubts: String =
+        doubts.map(|(metric, doubt)| format!("`{}` is inconclusive: {}\n", metric.name, doubt.words())).collect();
+    heading(case, terminal) + &table(rows(judged, is_shown), terminal) + &hidden + &doubts + &predictions
 }
 
 /// Diverged runs and failing gates of a case; empty for a case without failures.

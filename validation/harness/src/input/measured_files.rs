@@ -1,5 +1,6 @@
 //! Files of measurements as cases, studies, calibrations and sweeps name them.
 
+use super::{FieldError, name_and_unit, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -44,4 +45,35 @@ impl MeasuredFiles {
             _ => Self::Repeats(files),
         }
     }
+}
+
+/// The names and units that a plan gives the columns; empty for those that are not meant.
+///
+/// # Errors
+/// A text that is no heading of the file, or states no unit or another one.
+pub fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<Vec<String>, FieldError> {
+    let mut renamed = vec![String::new(); headings.len()];
+    for (name, given) in names {
+        for one in given.as_array().map_or(std::slice::from_ref(given), Vec::as_slice) {
+            let text = one.as_str().unwrap_or_default();
+            let (bare, unit) = name_and_unit(text).unwrap_or_default();
+            let is_meant = |own: &str| !unit.is_empty() && (own == text || own == bare);
+            if !headings.iter().any(|own| is_meant(own)) {
+                let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
+                let own = headings.iter().find(|own| **own == text).or(headings.last()).unwrap_or(&"toe");
+                let own = name_and_unit(own).map_or_else(|| format!("{own} [cm]"), |_| (*own).to_owned());
+                let remedy = format!("write the heading and its unit in brackets, such as {name} = \"{own}\"");
+                return Err(FieldError::new(&format!("columns.{name}"), one, &rule, &remedy));
+            }
+            let stated = bare.rsplit_once('(').and_then(|(_, rest)| rest.strip_suffix(')'));
+            if stated.is_some_and(|own| unit::is_known(own) && unit::factor(own, unit) != Some(1.0)) {
+                let (rule, remedy) = ("the unit that the heading states", "correct the unit in brackets");
+                return Err(FieldError::new(&format!("columns.{name}"), one, rule, remedy));
+            }
+            for (new, _) in renamed.iter_mut().zip(headings).filter(|(_, own)| is_meant(own)) {
+                *new = format!("{name} [{unit}]");
+            }
+        }
+    }
+    Ok(renamed)
 }

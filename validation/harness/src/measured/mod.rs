@@ -7,7 +7,7 @@ mod reading;
 
 pub use column::ColumnSource;
 pub use place::{COARSE, HALF_A_ROW, coarse_in_words};
-pub use reading::{WantedColumns, renamed};
+pub use reading::WantedColumns;
 
 use crate::case::{CaseResult, ParameterError, PreparedCase};
 use crate::evidence::NumberColumn;

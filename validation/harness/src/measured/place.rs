@@ -79,8 +79,16 @@ impl MatchingPanel {
     /// Refuses headings that are the axes of no panel, of figures without curves.
     pub(super) fn check_axes(measurements: &Measurements, figures: &[Figure]) -> Result<(), FieldError> {
         let fits = |panel: &Panel| panel.field.is_none() && Self::at(measurements, panel).is_some();
-        let is_there = figures.iter().flat_map(|figure| &figure.panels).any(fits);
-        if is_there { Ok(()) } else { Err(none(measurements, figures)) }
+        if !figures.iter().flat_map(|figure| &figure.panels).any(fits) {
+            return Err(none(measurements, figures));
+        }
+        // of figures that differ by their variant alone the file has to name one
+        let of_variants = figures.iter().enumerate().filter(|(_, own)| own.name.contains("-variant-"));
+        let places = of_variants.filter_map(|(figure, own)| Some((figure, own.panels.iter().position(fits)?)));
+        let several: Vec<Self> =
+            places.map(|(figure, panel)| Self { figure, panel, is_across: false, factors: (1.0, 1.0) }).collect();
+        let is_open = measurements.said.figure.is_none() && several.len() > 1;
+        if is_open { Err(too_many(measurements, figures, &several)) } else { Ok(()) }
     }
 
     fn at(measurements: &Measurements, panel: &Panel) -> Option<Self> {
@@ -163,8 +171,9 @@ impl MatchingPanel {
         let (squares, points): (Vec<f64>, Vec<_>) = given
             .zip(&measurements.uncertainty)
             .filter_map(|((x, y), uncertainty)| {
-                let at =
-                    |of: &[(f64, f64)]| interpolated(of, x * to_x, (Extrapolation::Nothing, Extrapolation::Nothing));
+                // the last row may stand just before the end of a run
+                let beyond = (Extrapolation::Nothing, Extrapolation::Line(0.1));
+                let at = |of: &[(f64, f64)]| interpolated(of, x * to_x, beyond);
                 let least = at(resolution).unwrap_or(0.0);
                 let own = uncertainty * to_y;
                 let residual = (at(&curve)? - y * to_y) / own.max(least);

@@ -4,8 +4,8 @@ use super::{Measurements, Said};
 use crate::case::ParameterError;
 use crate::evidence::NumberColumn;
 use crate::input::{
-    DOCUMENT, FieldError, MeasuredFiles, TableRows, is_uncertainty, name_and_unit, plain_lines, read_text, unit,
-    unnumbered,
+    DOCUMENT, FieldError, MeasuredFiles, TableRows, is_uncertainty, name_and_unit, plain_lines, read_text, renamed,
+    unit, unnumbered,
 };
 use crate::metric::Confidence;
 use crate::output::FileError;
@@ -130,37 +130,6 @@ fn parse(
         stated: behind.or_else(|| stated.first().copied()).or(third).into_iter().cloned().collect(),
         variants: place.map_or_else(Vec::new, |place| table.rows.iter().map(|row| row.1[place].to_owned()).collect()),
     })
-}
-
-/// The names and units that a plan gives the columns; empty for those that are not meant.
-///
-/// # Errors
-/// A text that is no heading of the file, or states no unit or another one.
-pub fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<Vec<String>, FieldError> {
-    let mut renamed = vec![String::new(); headings.len()];
-    for (name, given) in names {
-        for one in given.as_array().map_or(std::slice::from_ref(given), Vec::as_slice) {
-            let text = one.as_str().unwrap_or_default();
-            let (bare, unit) = name_and_unit(text).unwrap_or_default();
-            let is_meant = |own: &str| !unit.is_empty() && (own == text || own == bare);
-            if !headings.iter().any(|own| is_meant(own)) {
-                let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
-                let own = headings.iter().find(|own| **own == text).or(headings.last()).unwrap_or(&"toe");
-                let own = name_and_unit(own).map_or_else(|| format!("{own} [cm]"), |_| (*own).to_owned());
-                let remedy = format!("write the heading and its unit in brackets, such as {name} = \"{own}\"");
-                return Err(FieldError::new(&format!("columns.{name}"), one, &rule, &remedy));
-            }
-            let stated = bare.rsplit_once('(').and_then(|(_, rest)| rest.strip_suffix(')'));
-            if stated.is_some_and(|own| unit::is_known(own) && unit::factor(own, unit) != Some(1.0)) {
-                let (rule, remedy) = ("the unit that the heading states", "correct the unit in brackets");
-                return Err(FieldError::new(&format!("columns.{name}"), one, rule, remedy));
-            }
-            for (new, _) in renamed.iter_mut().zip(headings).filter(|(_, own)| is_meant(own)) {
-                *new = format!("{name} [{unit}]");
-            }
-        }
-    }
-    Ok(renamed)
 }
 
 /// Values of a column in another unit.

@@ -127,17 +127,20 @@ fn rough(plan: &CalibrationPlan, answer: &Answer, region: &Region) -> Option<Str
     let span = |(k, parameter): (usize, &CalibratedParameter)| {
         let ends = [f64::min, f64::max].map(|end| alike().map(|values| values[k]).reduce(end));
         let [from, to] = ends.map(|end| four_digits(end.unwrap_or(f64::NAN)));
-        format!("`{}` {from} … {to}", parameter.name)
+        (from != to).then(|| format!("`{}` {from} … {to}", parameter.name))
     };
-    let spans: Vec<String> = plan.parameters.iter().enumerate().map(span).collect();
+    let spans: Option<Vec<String>> = plan.parameters.iter().enumerate().map(span).collect();
+    let alike = spans.map_or_else(
+        || "its least value is that of a single run, and the intervals given are not to be quoted".to_owned(),
+        |spans| format!("the runs at {} agree alike, so take no narrower interval", spans.join(", ")),
+    );
     let [scattered, bound] = [(scatter, 2), (region.limit, 3)].map(|(value, digits)| short_digits(value, digits));
     let lower = near.iter().filter(|run| run.1 < region.minimum.chi_squared).count();
     // repeats scatter, and their smooth fit is what counts
     (scatter > region.limit).then(|| match plan.repeats.count {
         1 => format!(
-            "χ² of single runs scatters by {scattered} about its smooth fit, more than the {bound} that bound the intervals: the \
-             runs at {} agree alike, so take no narrower interval; refine `spacing`, or set `repeats`",
-            spans.join(", ")
+            "χ² of single runs scatters by {scattered} about its smooth fit, more than the {bound} that bound the intervals: \
+             {alike}; refine `spacing`, or set `repeats`"
         ),
         _ => format!(
             "χ² of single runs scatters by {scattered} between `repeats`: the best point is that of its smooth fit through all \

@@ -6,8 +6,8 @@ use super::vtk::{self, NamedArrays, PLACES, PointArrays};
 use crate::case::{
     ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParameterError, ParticleFrame, RunScales,
 };
-use crate::input::{self, FieldError, TextTable, did_you_mean, name_and_unit, nearest, of_repeats, unit};
-use crate::measured::{ColumnSource, renamed};
+use crate::input::{self, FieldError, TextTable, did_you_mean, name_and_unit, nearest, of_repeats, renamed, unit};
+use crate::measured::ColumnSource;
 use crate::output::FileError;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader};

@@ -4,10 +4,11 @@
 use super::error::ParameterError;
 use super::rates::in_unit;
 use crate::input::{
-    DOCUMENT, FieldError, TextTable, is_uncertainty, name_and_unit, of_repeats, parted, read_text, unit,
+    DOCUMENT, FieldError, MeasuredFiles, TextTable, is_uncertainty, name_and_unit, of_repeats, parted, read_text,
+    renamed, unit,
 };
 use crate::output::FileError;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -20,9 +21,12 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
         let points = measured.get("points");
         // a path in place of rows is what people try first
         let named = points.map_or(measured.get("file"), |points| Some(points).filter(|points| points.is_str()));
-        let Some(name) = named.and_then(Value::as_str).filter(|name| !name.is_empty()).map(str::to_owned) else {
-            continue;
-        };
+        let Some(named) = named.filter(|named| named.as_str() != Some("")).cloned() else { continue };
+        let files: MeasuredFiles = named.clone().try_into().map_err(|_| {
+            let rule =
+                "a file of measurements, or { files = […], columns = { t = \"ms [ms]\", toe = [\"run A [cm]\"] } }";
+            ParameterError::field("measured.file", &named, rule, "write file = \"mine.csv\"").in_file(path)
+        })?;
         let gauge = measured.get("gauge").and_then(Value::as_str).unwrap_or_default();
         let is_own = |other: &&Value| other.get("name").and_then(Value::as_str) == Some(gauge);
         let kind = gauges.iter().find(is_own).and_then(|gauge| gauge.get("kind")).and_then(Value::as_str);
@@ -34,10 +38,18 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
             Some("flux") => ["kg/m", "kg"],
             _ => ["m", "m"],
         };
-        let file = path.parent().unwrap_or(Path::new("")).join(&name);
+        let columns = if let MeasuredFiles::Named { columns, .. } = &files { Some(columns) } else { None };
+        let [only] = files.files() else {
+            let (value, remedy) = (files.files().len(), "give the repeats as columns of one file");
+            return Err(
+                ParameterError::field("measured.file", format!("{value} files"), "one file", remedy).in_file(path)
+            );
+        };
+        let file = path.parent().unwrap_or(Path::new("")).join(only);
         let text = read_text(&file, DOCUMENT).map_err(|error| FileError::unreadable(&file, &error))?;
         let row = |(time, value): (f64, f64)| Value::Array(vec![Value::Float(time), Value::Float(value)]);
-        let rows: Vec<Value> = rows(&text, &file, gauge, units)?.into_iter().map(row).collect();
+        let rows: Vec<Value> = rows(&text, &file, gauge, units, columns)?.into_iter().map(row).collect();
+        let name = only.display().to_string();
         measured.insert("points".to_owned(), rows.into());
         measured.insert("file".to_owned(), name.into());
     }
@@ -45,8 +57,22 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
 }
 
 /// Times `[s]` and values of a gauge, of repeats their mean; without a unit they are taken as they are.
-fn rows(text: &str, file: &Path, gauge: &str, units: [&str; 2]) -> Result<Vec<(f64, f64)>, FieldError> {
-    let table = TextTable::parse(text, file)?;
+fn rows(
+    text: &str,
+    file: &Path,
+    gauge: &str,
+    units: [&str; 2],
+    columns: Option<&BTreeMap<String, Value>>,
+) -> Result<Vec<(f64, f64)>, FieldError> {
+    let mut table = TextTable::parse(text, file)?;
+    if let Some(columns) = columns {
+        let given: Vec<&str> = table.headings.iter().map(String::as_str).collect();
+        let meant = renamed(&given, columns).map_err(|error| error.in_file(file))?;
+        let all = meant.into_iter().zip(std::mem::take(&mut table.columns));
+        let mut meant: Vec<(String, Vec<f64>)> = all.filter(|(heading, _)| !heading.is_empty()).collect();
+        meant.sort_by_key(|(heading, _)| !["t", "time"].contains(&parted(heading).0));
+        (table.headings, table.columns) = meant.into_iter().unzip();
+    }
     let names: Vec<String> = table.headings.iter().map(|heading| of_repeats(heading)).collect();
     let quantities: BTreeSet<&str> =
         names.iter().skip(1).map(String::as_str).filter(|name| !is_uncertainty(parted(name).0)).collect();
@@ -54,7 +80,11 @@ fn rows(text: &str, file: &Path, gauge: &str, units: [&str; 2]) -> Result<Vec<(f
     let only = quantities.first().filter(|_| quantities.len() == 1);
     let Some(heading) = only.or_else(|| quantities.iter().find(is_named)) else {
         let defect = format!("{} quantities beside the times: {}", quantities.len(), names.join(", "));
-        let remedy = format!("write `t [s],{gauge} [m]` above rows such as `0.1,0.14`");
+        let repeats = format!("repeats as several columns `{gauge} [cm]`");
+        let own = format!(
+            "name your own headings by file = {{ files = […], columns = {{ t = \"ms [ms]\", {gauge} = [\"run A [cm]\"] }} }}"
+        );
+        let remedy = format!("write `t [ms],{gauge} [cm]` above the rows, {repeats}, or {own}");
         return Err(FieldError::finding("columns", defect, &remedy).in_file(file));
     };
     let given = name_and_unit(heading).map_or(units[0], |(_, unit)| unit);
@@ -76,7 +106,8 @@ mod tests {
         let path = folder.path().join("case.toml");
         let gauge = "[[gauges]]\nkind = \"front\"\nname = \"toe\"\n[[measured]]\ngauge = \"toe\"\n";
         let rows = "points = [[0.1, 0.14], [0.2, 0.2]]\nfile = \"a.csv\"";
-        for given in ["file = \"a.csv\"", "points = \"a.csv\""] {
+        let own = "file = { files = [\"a.csv\"], columns = { t = \"t [ms]\", toe = [\"front #1 [cm]\", \"front #2 [cm]\"] } }";
+        for given in ["file = \"a.csv\"", "points = \"a.csv\"", own] {
             let mut fields: Table = toml::from_str(&format!("{gauge}{given}")).expect("TOML");
             read_beside(&mut fields, &path).expect("read");
             assert_eq!(fields, toml::from_str(&format!("{gauge}{rows}")).expect("TOML"), "{given}");
@@ -87,11 +118,12 @@ mod tests {
 
     #[test]
     fn what_is_no_series_of_the_gauge_is_named() {
-        let read = |text: &str| rows(text, Path::new("a.csv"), "toe", ["m", "m"]).map_err(|error| error.to_string());
+        let read =
+            |text: &str| rows(text, Path::new("a.csv"), "toe", ["m", "m"], None).map_err(|error| error.to_string());
         for (text, said) in [
             ("t [s],toe [s]\n0,1\n", "a.csv: `toe [s]` is [s], but must be a unit that converts to [m]"),
             ("t [s],u [m],v [m]\n0,1,2\n", "a.csv: `columns`: 2 quantities beside the times: t [s], u [m], v [m];"),
-            ("t [s]\n0\n", "a.csv: `columns`: 0 quantities beside the times: t [s]; write `t [s],toe [m]` above"),
+            ("t [s]\n0\n", "a.csv: `columns`: 0 quantities beside the times: t [s]; write `t [ms],toe [cm]` above"),
         ] {
             assert!(read(text).is_err_and(|message| message.starts_with(said)), "{said}: {:?}", read(text));
         }
