@@ -57,8 +57,7 @@ impl TextTable {
     /// # Errors
     /// A heading that the file does not have; `field` is where it is asked for.
     pub fn column(&self, heading: &str, field: &str, file: &Path) -> Result<Vec<f64>, FieldError> {
-        let is_there = self.headings.iter().any(|own| own == heading);
-        let is_meant = |own: &str| if is_there { own == heading } else { of_repeats(own) == heading };
+        let is_meant = |own: &str| own == heading || of_repeats(own) == heading;
         let named = self.headings.iter().zip(&self.columns).filter(|(own, _)| is_meant(own));
         let repeats: Vec<&Vec<f64>> = named.map(|(_, column)| column).collect();
         let Some(first) = repeats.first() else {

@@ -347,7 +347,7 @@ fn largest(series: &[f64]) -> f64 {
 /// or ends before. The last row may stand up to a row's time before the end of the run, up to which its line goes on.
 fn error((time, end): (&[f64], f64), series: &[f64], points: &[(f64, f64)]) -> (f64, usize) {
     let samples: Vec<(f64, f64)> = time.iter().copied().zip(series.iter().copied()).collect();
-    let at = |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Line(1.0)));
+    let at = |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Line(1.0 + 1e-9)));
     let row = time.last().zip(time.iter().rev().nth(1)).map_or(0.0, |(last, before)| last - before);
     let last = time.last().map(|last| last.max(end.min(last + row)));
     let square = |&(time, measured): &(f64, f64)| Some((at(time)? / measured - 1.0).powi(2));

@@ -129,11 +129,11 @@ fn rough(plan: &CalibrationPlan, answer: &Answer, region: &Region) -> Option<Str
         let [from, to] = ends.map(|end| four_digits(end.unwrap_or(f64::NAN)));
         (from != to).then(|| format!("`{}` {from} … {to}", parameter.name))
     };
-    let spans: Option<Vec<String>> = plan.parameters.iter().enumerate().map(span).collect();
-    let alike = spans.map_or_else(
-        || "its least value is that of a single run, and the intervals given are not to be quoted".to_owned(),
-        |spans| format!("the runs at {} agree alike, so take no narrower interval", spans.join(", ")),
-    );
+    let spans: Vec<String> = plan.parameters.iter().enumerate().filter_map(span).collect();
+    let alike = match &spans[..] {
+        [] => "its least value is that of a single run, and the intervals given are not to be quoted".to_owned(),
+        spans => format!("the runs at {} agree alike, so take no narrower interval", spans.join(", ")),
+    };
     let [scattered, bound] = [(scatter, 2), (region.limit, 3)].map(|(value, digits)| short_digits(value, digits));
     let lower = near.iter().filter(|run| run.1 < region.minimum.chi_squared).count();
     // repeats scatter, and their smooth fit is what counts

@@ -119,13 +119,15 @@ fn of_lists(
                 "convert the columns",
             ));
         };
+        // no column of the file has this heading
+        let heading = format!("\u{1}{heading}");
         *value = heading.as_str().into();
         table
             .headings
             .iter_mut()
             .zip(&meant)
             .filter(|(_, new)| !new.is_empty())
-            .for_each(|(own, new)| own.clone_from(new));
+            .for_each(|(own, _)| own.clone_from(&heading));
     }
     Ok(columns)
 }

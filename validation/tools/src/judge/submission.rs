@@ -154,8 +154,11 @@ impl Submission {
 
     /// An error of the parameters, in this file if the field at fault stands here and not in the base.
     pub fn placed(&self, mut error: ParameterError) -> ParameterError {
+        let is_within = |inner: &str, outer: &str| {
+            inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
         if let ParameterError::Field(FieldError { field, origin, .. }) = &mut error
-            && leaves(&self.own).iter().any(|own| own.starts_with(&**field) || field.starts_with(own))
+            && leaves(&self.own).iter().any(|own| is_within(own, field) || is_within(field, own))
         {
             *origin = Some(Origin::File(self.path.clone()));
         }

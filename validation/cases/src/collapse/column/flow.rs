@@ -323,11 +323,11 @@ impl<const D: usize> ColumnFlow<D> {
         STIFFNESS * self.density() * self.gravity * self.initial_height() * self.half_width
     }
 
-    /// End of the bed `[m]`: well beyond the longest published run-out, which is that of sand; less friction carries grains farther.
+    /// End of the bed `[m]`: well beyond the longest published run-out, which is that of sand; in space less friction carries grains farther.
     fn bed_end(&self) -> f64 {
         let a = self.aspect_ratio;
         let sand = TABLE_2_SAND.law.static_friction;
-        let farther = (sand / self.material.strength_at_rest(1.0).unwrap_or(sand)).max(1.0);
+        let farther = (sand / self.material.strength_at_rest(1.0).unwrap_or(sand)).clamp(1.0, 4.0);
         // in space the bed costs more than the grains
         let end = if D == 2 {
             2.0 + 1.5 * (2.7 * a).min(3.7 * libm::pow(a, 0.7))

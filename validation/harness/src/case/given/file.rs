@@ -79,7 +79,7 @@ impl CaseFile {
         let output = OutputPlan::taken(&mut fields, path)?;
         meshes::read_beside(&mut fields, path)?;
         rates::read_beside(&mut fields, path)?;
-        measured_rows::read_beside(&mut fields, path)?;
+        measured_rows::read_beside(&mut fields, &case, path)?;
         Ok(Self { path: path.to_owned(), case, tier, overlay, output, fields })
     }
 
@@ -92,7 +92,7 @@ impl CaseFile {
         lay_over(&mut fields, values);
         meshes::read_beside(&mut fields, path)?;
         rates::read_beside(&mut fields, path)?;
-        measured_rows::read_beside(&mut fields, path)?;
+        measured_rows::read_beside(&mut fields, case, path)?;
         let case = shortened(case.to_owned());
         Ok(Self { path: path.to_owned(), case, tier, overlay: Vec::new(), output: None, fields })
     }
@@ -113,7 +113,14 @@ impl CaseFile {
             let remedy = "add case = \"scene\", or base = \"my-case.toml\"";
             return Err(FieldError::finding("case", "missing", remedy).into());
         };
-        let own = Self::of_parameters(plan, name, tier, own)?;
+        let mut own = own.clone();
+        // by which measurements know their units
+        if let Some(gauges) =
+            base.as_ref().and_then(|base| base.fields.get("gauges")).filter(|_| own.contains_key("measured"))
+        {
+            own.entry("gauges").or_insert_with(|| gauges.clone());
+        }
+        let own = Self::of_parameters(plan, name, tier, &own)?;
         let Some(mut base) = base else { return Ok(own) };
         if own.case != base.case {
             let rule = format!("the case of {}, \"{}\"", base.path.display(), base.case);

@@ -4,8 +4,7 @@
 use super::error::ParameterError;
 use super::rates::in_unit;
 use crate::input::{
-    DOCUMENT, FieldError, MeasuredFiles, TextTable, is_uncertainty, name_and_unit, of_repeats, parted, read_text,
-    renamed, unit,
+    DOCUMENT, FieldError, MeasuredFiles, TextTable, is_uncertainty, of_repeats, parted, read_text, renamed,
 };
 use crate::output::FileError;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +13,7 @@ use toml::{Table, Value};
 
 /// Adds the rows of the files that `measured` names by a path from the case file on. What has rows keeps them: the name then says where
 /// they came from.
-pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), ParameterError> {
+pub(in crate::case) fn read_beside(fields: &mut Table, case: &str, path: &Path) -> Result<(), ParameterError> {
     let gauges = fields.get("gauges").and_then(Value::as_array).cloned().unwrap_or_default();
     let measured = fields.get_mut("measured").and_then(Value::as_array_mut);
     for measured in measured.into_iter().flatten().filter_map(Value::as_table_mut) {
@@ -30,14 +29,17 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
         let gauge = measured.get("gauge").and_then(Value::as_str).unwrap_or_default();
         let is_own = |other: &&Value| other.get("name").and_then(Value::as_str) == Some(gauge);
         let kind = gauges.iter().find(is_own).and_then(|gauge| gauge.get("kind")).and_then(Value::as_str);
-        // in the plane per width
-        let units = match kind {
-            Some("probe") => ["Pa", "Pa"],
-            Some("force") => ["N/m", "N"],
-            Some("turn") => ["N m/m", "N m"],
-            Some("flux") => ["kg/m", "kg"],
-            _ => ["m", "m"],
+        // the first column of a gauge; in the plane per width
+        let (column, units) = match kind {
+            Some("probe") => ("pressure", ["Pa", "Pa"]),
+            Some("force") => ("force along x", ["N/m", "N"]),
+            Some("turn") => ("torque", ["N m/m", "N m"]),
+            Some("flux") => ("mass that has crossed", ["kg/m", "kg"]),
+            Some("position") => ("displacement along x", ["m", "m"]),
+            Some("depth") => ("depth", ["m", "m"]),
+            _ => ("front", ["m", "m"]),
         };
+        let wanted = GaugeColumn { gauge, column, unit: units[usize::from(case == "scene-space")] };
         let columns = if let MeasuredFiles::Named { columns, .. } = &files { Some(columns) } else { None };
         let [only] = files.files() else {
             let (value, remedy) = (files.files().len(), "give the repeats as columns of one file");
@@ -48,7 +50,7 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
         let file = path.parent().unwrap_or(Path::new("")).join(only);
         let text = read_text(&file, DOCUMENT).map_err(|error| FileError::unreadable(&file, &error))?;
         let row = |(time, value): (f64, f64)| Value::Array(vec![Value::Float(time), Value::Float(value)]);
-        let rows: Vec<Value> = rows(&text, &file, gauge, units, columns)?.into_iter().map(row).collect();
+        let rows: Vec<Value> = rows(&text, &file, &wanted, columns)?.into_iter().map(row).collect();
         let name = only.display().to_string();
         measured.insert("points".to_owned(), rows.into());
         measured.insert("file".to_owned(), name.into());
@@ -56,12 +58,18 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
     Ok(())
 }
 
+/// First column of a gauge.
+struct GaugeColumn<'a> {
+    gauge: &'a str,
+    column: &'a str,
+    unit: &'a str,
+}
+
 /// Times `[s]` and values of a gauge, of repeats their mean; without a unit they are taken as they are.
 fn rows(
     text: &str,
     file: &Path,
-    gauge: &str,
-    units: [&str; 2],
+    &GaugeColumn { gauge, column, unit }: &GaugeColumn<'_>,
     columns: Option<&BTreeMap<String, Value>>,
 ) -> Result<Vec<(f64, f64)>, FieldError> {
     let mut table = TextTable::parse(text, file)?;
@@ -76,19 +84,27 @@ fn rows(
     let names: Vec<String> = table.headings.iter().map(|heading| of_repeats(heading)).collect();
     let quantities: BTreeSet<&str> =
         names.iter().skip(1).map(String::as_str).filter(|name| !is_uncertainty(parted(name).0)).collect();
-    let is_named = |name: &&&str| parted(name).0.split(": ").next() == Some(gauge);
-    let only = quantities.first().filter(|_| quantities.len() == 1);
-    let Some(heading) = only.or_else(|| quantities.iter().find(is_named)) else {
+    let bare: BTreeSet<&str> = quantities.iter().map(|name| parted(name).0).collect();
+    if bare.len() < quantities.len() {
+        let defect = format!("one quantity in several units: {}", names.join(", "));
+        return Err(FieldError::finding("columns", defect, "convert the columns to one unit").in_file(file));
+    }
+    let is_named = |name: &&&str| {
+        let own = parted(name).0;
+        own == gauge || own == column || own.strip_prefix(gauge) == Some(&format!(": {column}"))
+    };
+    // another column of a gauge is another quantity
+    let is_other = |name: &&&str| [": ", " along "].iter().any(|mark| parted(name).0.contains(mark));
+    let only = quantities.first().filter(|name| quantities.len() == 1 && !is_other(name));
+    let Some(heading) = quantities.iter().find(is_named).or(only) else {
         let defect = format!("{} quantities beside the times: {}", quantities.len(), names.join(", "));
-        let repeats = format!("repeats as several columns `{gauge} [cm]`");
+        let repeats = format!("repeats as several columns `{gauge} [{unit}]`");
         let own = format!(
             "name your own headings by file = {{ files = […], columns = {{ t = \"ms [ms]\", {gauge} = [\"run A [cm]\"] }} }}"
         );
-        let remedy = format!("write `t [ms],{gauge} [cm]` above the rows, {repeats}, or {own}");
+        let remedy = format!("write `t [ms],{gauge} [{unit}]` above the rows, {repeats}, or {own}");
         return Err(FieldError::finding("columns", defect, &remedy).in_file(file));
     };
-    let given = name_and_unit(heading).map_or(units[0], |(_, unit)| unit);
-    let unit = units.into_iter().find(|own| unit::factor(given, own).is_some()).unwrap_or(units[0]);
     let times = in_unit(&names[0], &table.columns[0], "s", file)?;
     let values = in_unit(heading, &table.column(heading, "columns", file)?, unit, file)?;
     Ok(times.into_iter().zip(values).collect())
@@ -97,6 +113,8 @@ fn rows(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const TOE: GaugeColumn<'_> = GaugeColumn { gauge: "toe", column: "front", unit: "m" };
 
     #[test]
     fn repeats_in_centimetres_become_rows_of_their_mean_in_metres() {
@@ -109,21 +127,28 @@ mod tests {
         let own = "file = { files = [\"a.csv\"], columns = { t = \"t [ms]\", toe = [\"front #1 [cm]\", \"front #2 [cm]\"] } }";
         for given in ["file = \"a.csv\"", "points = \"a.csv\"", own] {
             let mut fields: Table = toml::from_str(&format!("{gauge}{given}")).expect("TOML");
-            read_beside(&mut fields, &path).expect("read");
+            read_beside(&mut fields, "scene", &path).expect("read");
             assert_eq!(fields, toml::from_str(&format!("{gauge}{rows}")).expect("TOML"), "{given}");
         }
         let mut own: Table = toml::from_str(&format!("{gauge}{}", rows.replace("a.csv", "gone.csv"))).expect("TOML");
-        assert!(read_beside(&mut own, &path).is_ok(), "what has rows needs no file");
+        assert!(read_beside(&mut own, "scene", &path).is_ok(), "what has rows needs no file");
     }
 
     #[test]
     fn what_is_no_series_of_the_gauge_is_named() {
-        let read =
-            |text: &str| rows(text, Path::new("a.csv"), "toe", ["m", "m"], None).map_err(|error| error.to_string());
+        let read = |text: &str| rows(text, Path::new("a.csv"), &TOE, None).map_err(|error| error.to_string());
         for (text, said) in [
+            (
+                "t [s],toe [cm],toe #2 [mm]\n0,1,2\n",
+                "a.csv: `columns`: one quantity in several units: t [s], toe [cm], toe [mm];",
+            ),
+            (
+                "t [s],toe: front at half a row more [m]\n0,1\n",
+                "a.csv: `columns`: 1 quantities beside the times: t [s], toe:",
+            ),
             ("t [s],toe [s]\n0,1\n", "a.csv: `toe [s]` is [s], but must be a unit that converts to [m]"),
             ("t [s],u [m],v [m]\n0,1,2\n", "a.csv: `columns`: 2 quantities beside the times: t [s], u [m], v [m];"),
-            ("t [s]\n0\n", "a.csv: `columns`: 0 quantities beside the times: t [s]; write `t [ms],toe [cm]` above"),
+            ("t [s]\n0\n", "a.csv: `columns`: 0 quantities beside the times: t [s]; write `t [ms],toe [m]` above"),
         ] {
             assert!(read(text).is_err_and(|message| message.starts_with(said)), "{said}: {:?}", read(text));
         }

@@ -395,7 +395,8 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         }
         let panel = |[x, y]: &[&str; 2]| Panel::new("", Axis::linear(x), Axis::linear(y));
         let of_runs = Figure::new("further figures", "", C::AXES_OF_RUNS.iter().map(panel).collect());
-        self.asked().figures.into_iter().chain([of_runs]).collect()
+        let of_runs = Some(of_runs).filter(|figure| !figure.panels.is_empty());
+        self.asked().figures.into_iter().chain(of_runs).collect()
     }
 
     fn conditions(&self, run: usize) -> Option<Conditions> {
