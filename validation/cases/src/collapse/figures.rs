@@ -201,7 +201,7 @@ fn histories<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     let points = if has_points {
         "Points: other codes with the same law; error bars: twice their uncertainty."
     } else {
-        "Fronts of these columns are published for other codes only."
+        "No front over time is published for these columns."
     };
     let caption = format!(
         "Front displacement at a thickness of 0.05 r0, divided by the aspect ratio, and kinetic energy, divided by \

@@ -28,7 +28,12 @@ pub(in crate::case) fn read_beside(fields: &mut Table, case: &str, path: &Path) 
         })?;
         let gauge = measured.get("gauge").and_then(Value::as_str).unwrap_or_default();
         let is_own = |other: &&Value| other.get("name").and_then(Value::as_str) == Some(gauge);
-        let kind = gauges.iter().find(is_own).and_then(|gauge| gauge.get("kind")).and_then(Value::as_str);
+        let own = gauges.iter().find(is_own);
+        if own.is_none() && !gauges.is_empty() {
+            let (value, remedy) = (format!("\"{gauge}\""), "correct the name");
+            return Err(ParameterError::field("measured.gauge", value, "the name of a gauge", remedy).in_file(path));
+        }
+        let kind = own.and_then(|gauge| gauge.get("kind")).and_then(Value::as_str);
         // the first column of a gauge; in the plane per width
         let (column, units) = match kind {
             Some("probe") => ("pressure", ["Pa", "Pa"]),
@@ -97,7 +102,7 @@ fn rows(
     let is_other = |name: &&&str| [": ", " along "].iter().any(|mark| parted(name).0.contains(mark));
     let only = quantities.first().filter(|name| quantities.len() == 1 && !is_other(name));
     let Some(heading) = quantities.iter().find(is_named).or(only) else {
-        let defect = format!("{} quantities beside the times: {}", quantities.len(), names.join(", "));
+        let defect = format!("none of {} is the {column} of `{gauge}`", names.join(", "));
         let repeats = format!("repeats as several columns `{gauge} [{unit}]`");
         let own = format!(
             "name your own headings by file = {{ files = […], columns = {{ t = \"ms [ms]\", {gauge} = [\"run A [cm]\"] }} }}"
@@ -130,6 +135,11 @@ mod tests {
             read_beside(&mut fields, "scene", &path).expect("read");
             assert_eq!(fields, toml::from_str(&format!("{gauge}{rows}")).expect("TOML"), "{given}");
         }
+        let mut slip: Table =
+            toml::from_str(&format!("{gauge}file = \"a.csv\"").replace("gauge = \"toe\"", "gauge = \"teo\""))
+                .expect("TOML");
+        let slip = read_beside(&mut slip, "scene", &path).expect_err("no such gauge").to_string();
+        assert!(slip.contains("`measured.gauge` is \"teo\", but must be the name of a gauge"), "{slip}");
         let mut own: Table = toml::from_str(&format!("{gauge}{}", rows.replace("a.csv", "gone.csv"))).expect("TOML");
         assert!(read_beside(&mut own, "scene", &path).is_ok(), "what has rows needs no file");
     }
@@ -144,11 +154,11 @@ mod tests {
             ),
             (
                 "t [s],toe: front at half a row more [m]\n0,1\n",
-                "a.csv: `columns`: 1 quantities beside the times: t [s], toe:",
+                "a.csv: `columns`: none of t [s], toe: front at half a row more [m] is the front of `toe`;",
             ),
             ("t [s],toe [s]\n0,1\n", "a.csv: `toe [s]` is [s], but must be a unit that converts to [m]"),
-            ("t [s],u [m],v [m]\n0,1,2\n", "a.csv: `columns`: 2 quantities beside the times: t [s], u [m], v [m];"),
-            ("t [s]\n0\n", "a.csv: `columns`: 0 quantities beside the times: t [s]; write `t [ms],toe [m]` above"),
+            ("t [s],u [m],v [m]\n0,1,2\n", "a.csv: `columns`: none of t [s], u [m], v [m] is the front of `toe`;"),
+            ("t [s]\n0\n", "a.csv: `columns`: none of t [s] is the front of `toe`; write `t [ms],toe [m]` above"),
         ] {
             assert!(read(text).is_err_and(|message| message.starts_with(said)), "{said}: {:?}", read(text));
         }
