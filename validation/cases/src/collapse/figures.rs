@@ -3,10 +3,10 @@
 use super::interior::{self, energies, stations, velocity_profile, wedge};
 use super::metrics::{convergence, measured, scaling, stress_updates};
 use crate::case::Flow;
-use crate::collapse::column::PICTURES;
+use crate::collapse::column::{PICTURES, pile_of};
 use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::metrics::{Measure, bands, laws_among};
-use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, ExperimentGrains, Material};
+use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, ExperimentGrains, FRONT_THICKNESS, Material};
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded, energy};
@@ -18,11 +18,11 @@ use crate::shared::distinct;
 pub(crate) fn all<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Figure> {
     let laws = laws_among(records);
     let mut figures = Vec::new();
-    // the pile of bars has points of its own, and a figure with them
-    let others: Vec<&CollapseRecord<D>> =
-        laws.iter().copied().filter(|(run, _)| run.grains != ExperimentGrains::Bars).collect();
-    if !others.is_empty() {
-        figures.push(scaling_figure(&others));
+    // bars of another friction belong to the pile's own figure
+    let columns = laws.iter().copied().filter(|(run, _)| run.grains != ExperimentGrains::Bars || is_shown(run));
+    let columns: Vec<&CollapseRecord<D>> = columns.collect();
+    if !columns.is_empty() {
+        figures.push(scaling_figure(&columns));
     }
     for material in distinct(laws.iter().map(|(run, _)| run.made_of())) {
         let own: Vec<&CollapseRecord<D>> = laws.iter().copied().filter(|(run, _)| run.made_of() == material).collect();
@@ -93,6 +93,13 @@ fn scaling_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
             panel.draw("measured", Mark::OpenPoints, 13, measured.points.iter().copied()).error = bars;
             panel.draw("measured, doubtful", Mark::OpenPoints, 9, measured.doubtful.iter().copied());
         }
+        for pile in records.iter().filter_map(|(run, _)| pile_of(run)).take(1) {
+            let (front, row) = (pile.front(FRONT_THICKNESS * pile.length) - pile.length, pile.surface[0].1);
+            let (value, reading) = if legend { (front, pile.front_reading()) } else { (row, pile.reading) };
+            let point = (pile.height / pile.length, value / pile.length);
+            let entry = if legend { "measured, bars" } else { "" };
+            panel.draw(entry, Mark::OpenPoints, 13, [point]).error = vec![2.0 * reading / pile.length];
+        }
         let gate = |run: &ColumnFlow<D>| if legend { bands::run_out(run, false) } else { bands::height(run) };
         for (run, _) in records {
             if let Some(((low, high), _)) = gate(run) {
@@ -144,6 +151,9 @@ fn scaling_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
         .to_owned();
     if fits > 0 {
         caption += " Fits: power laws; exponents with 95 % interval.";
+    }
+    if records.iter().any(|(run, _)| pile_of(run).is_some()) {
+        caption += " Bars: Bui et al. 2008, ± twice the reading.";
     }
     if round {
         let percent = 200.0 * measured.scatter;
