@@ -131,7 +131,7 @@ fn invalid_value_is_refused_by_field() {
         (profile("height = \"u [s]\""), "`run 1.profile.columns.height` is [s], but must be a unit that converts to m"),
         (
             profile("hight = \"y [mm]\""),
-            "`run 1.profile.columns.hight`: unknown name; did you mean `height`? known are height, velocity, pressure;",
+            "`run 1.profile.columns.hight`: unknown name; did you mean `height`? known are height [m] (",
         ),
     ];
     for (text, start) in refused {

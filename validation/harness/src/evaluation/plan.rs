@@ -30,7 +30,11 @@ pub fn parse_plan<T: DeserializeOwned>(file: &Path, text: &str, command: &str) -
         if let Some((_, key, now)) = FORMER.iter().find(is_former) {
             return FieldError::finding(key, "outdated name", &format!("rename it to `{now}`"));
         }
-        let remedy = format!("`{command} --help` shows a plan");
+        let remedy = match command {
+            "bagnold grains" => "`bagnold examples` writes a plan, examples/grains/slopes.toml".to_owned(),
+            "bagnold judge" => "`bagnold judge --template CASE` prints a submission to fill in".to_owned(),
+            _ => format!("`{command} --help` shows a plan"),
+        };
         FieldError::of_toml(text, &error, in_plain_words(text, &error), &remedy)
     };
     toml::from_str(text).map_err(|error| refused(error).in_file(file).into())

@@ -8,8 +8,9 @@ use std::f64::consts::PI;
 
 /// Fewest grains of which a mean is taken, and fewest that move as one.
 const FEWEST: [usize; 2] = [50, 3];
-/// Most sizes of grains that are kinds, not a distribution.
+/// Most sizes of grains that are kinds, not a distribution, and the least ratio of two neighbouring sizes between two distributions.
 const MOST_KINDS: usize = 5;
+const GAP: f64 = 1.2;
 /// Least depth of a layer in diameters, and the range of its solid fraction.
 const LEAST_DEPTH: f64 = 4.0;
 const SOLID: [f64; 2] = [0.05, 1.0];
@@ -71,10 +72,16 @@ impl<'f> Grains<'f> {
         for (name, most) in [("kind", usize::MAX), ("density", usize::MAX), ("radius", MOST_KINDS)] {
             let values = self.distinct(name);
             let is_chosen = name == "kind" && !run.kinds.is_empty() || name == "radius" && run.grain_diameter.is_some();
-            if (2..=most).contains(&values.len()) && !is_chosen {
+            let gap = values.windows(2).find(|pair| name == "radius" && pair[1] > GAP * pair[0]);
+            if ((2..=most).contains(&values.len()) || gap.is_some()) && !is_chosen {
                 let listed: Vec<String> = values.iter().take(MOST_KINDS).map(f64::to_string).collect();
                 let remedy = "choose one by `kinds`, or give `grain_diameter` for mixed sizes";
-                let defect = format!("{} different values, {}, where one is allowed", values.len(), listed.join(", "));
+                let defect = match gap {
+                    Some(gap) if values.len() > most => {
+                        format!("two distributions, up to {} and from {} m", gap[0], gap[1])
+                    }
+                    _ => format!("{} different values, {}, where one is allowed", values.len(), listed.join(", ")),
+                };
                 return wrong(name, defect, "", remedy);
             }
         }

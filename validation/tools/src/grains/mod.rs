@@ -86,9 +86,13 @@ fn average_run(plan: &GrainPlan, place: usize) -> Result<RunFields, ToolError> {
     let windows: Vec<Window> = (0..WINDOWS).map(|k| Window::merged(&frames[end(k)..end(k + 1)])).collect();
     let fields = run.fields(place, &windows, [diameter, density], diameter / BINS);
     fields.check_balance().map_err(at_run)?;
+    fields.check_direction(run).map_err(at_run)?;
     let limit = plan.steady_within.unwrap_or(0.1);
     if fields.unsteadiness <= limit {
-        return Ok(fields);
+        let is_repeated = frames.windows(2).any(|pair| pair[0].bins == pair[1].bins);
+        let repeated =
+            || FieldError::finding("particles.files", "two frames hold the same grains", "dump at several times");
+        return if is_repeated { Err(at_run(repeated())) } else { Ok(fields) };
     }
     let [change, limit] = [fields.unsteadiness, limit].map(|part| short_digits(100.0 * part, 2));
     let defect = format!("the velocity changes by {change} %, above the limit of {limit} % (`steady_within`)");

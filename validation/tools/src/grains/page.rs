@@ -13,6 +13,11 @@ const APART: f64 = 0.05;
 /// Difference of the contacts' stress from the momentum balance that is told `[-]`.
 const UNBALANCED: f64 = 0.05;
 
+/// Relative uncertainty below which a value is exact but for rounding, such as the friction on a slope `[-]`.
+const EXACT: f64 = 1e-9;
+/// Inertial number above which no flow is dense `[-]`.
+const FASTEST: f64 = 3.0;
+
 /// Writes a table of fields for each run, the points of the law, and a figure.
 ///
 /// # Errors
@@ -24,40 +29,52 @@ pub fn write(plan: &GrainPlan, runs: &[RunFields], folder: &Path) -> Result<(), 
     let panel = |(k, label): (usize, &str)| {
         let mut panel = Panel::new("", Axis::linear("I [-]"), Axis::linear(label));
         for (slot, run) in runs.iter().enumerate() {
-            panel.points(&run.name, slot, [(run.core[POINT[0]].0, run.core[k].0)]).error = vec![run.core[k].1];
+            let error = if k == POINT[1] { uncertainty(runs, run) } else { run.core[k].1 };
+            panel.points(&run.name, slot, [(run.core[POINT[0]].0, run.core[k].0)]).error = vec![error];
         }
         panel
     };
     let panels = [(POINT[1], "μ [-]"), (POINT[2], "φ [-]")].map(panel);
-    let drawn = Figure::new("law", &format!("{}: means over the core of each run.", plan.title), panels.into());
+    let caption =
+        format!("{}: means over the core of each run, with standard uncertainties as in points.csv.", plan.title);
+    let drawn = Figure::new("law", &caption, panels.into());
     let drawn = figure::write(&drawn, &folder.join("figures"));
     drawn.map(drop).map_err(|error| unwritable(io::Error::other(error.to_string())))
 }
 
-/// Points of the law. Where only the inertial number scatters, as on slopes, the line to the neighbours carries that over to the friction.
+/// Points of the law.
 fn points(plan: &GrainPlan, runs: &[RunFields]) -> String {
     let mut text = format!("# source: {}, grains\n", plan.title);
     text += "inertial_number [-],friction [-],friction uncertainty [-],solid_fraction [-],inertial_number scatter [-],run\n";
     for run in runs {
-        let [(inertia, scatter), (friction, own), (solid, _)] = POINT.map(|k| run.core[k]);
-        let others = runs.iter().map(|run| (run.core[POINT[0]].0, run.core[POINT[1]].0));
-        let below = others.clone().filter(|point| point.0 < inertia * (1.0 - APART)).max_by(|a, b| a.0.total_cmp(&b.0));
-        let above = others.filter(|point| point.0 > inertia * (1.0 + APART)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let (low, high) = (below.unwrap_or((inertia, friction)), above.unwrap_or((inertia, friction)));
-        let slope = if high.0 > low.0 { (high.1 - low.1) / (high.0 - low.0) } else { 0.0 };
-        let sigma = libm::hypot(own, slope * scatter);
+        let [(inertia, scatter), (friction, _), (solid, _)] = POINT.map(|k| run.core[k]);
+        let sigma = uncertainty(runs, run);
         text += &format!("{inertia},{friction},{sigma},{solid},{scatter},\"{}\"\n", run.name);
     }
     text
+}
+
+/// Standard uncertainty of a run's friction. Where only the inertial number scatters, as on slopes, the line to the neighbours carries that
+/// over to the friction.
+fn uncertainty(runs: &[RunFields], run: &RunFields) -> f64 {
+    let [(inertia, scatter), (friction, own), _] = POINT.map(|k| run.core[k]);
+    let others = runs.iter().map(|run| (run.core[POINT[0]].0, run.core[POINT[1]].0));
+    let below = others.clone().filter(|point| point.0 < inertia * (1.0 - APART)).max_by(|a, b| a.0.total_cmp(&b.0));
+    let above = others.filter(|point| point.0 > inertia * (1.0 + APART)).min_by(|a, b| a.0.total_cmp(&b.0));
+    let (low, high) = (below.unwrap_or((inertia, friction)), above.unwrap_or((inertia, friction)));
+    let slope = if high.0 > low.0 { (high.1 - low.1) / (high.0 - low.0) } else { 0.0 };
+    libm::hypot(own, slope * scatter)
 }
 
 /// Two lines for each run: its point, and the checks.
 pub fn summary(runs: &[RunFields]) -> String {
     let line = |run: &RunFields| {
         let parts = ["I", "μ", "φ"].iter().zip(POINT.map(|k| run.core[k]));
-        let parts: Vec<String> = parts
-            .map(|(name, (value, u))| format!("{name} = {} ± {}", short_digits(value, 4), two_digits(u)))
-            .collect();
+        let part = |(name, (value, u)): (&&str, (f64, f64))| match u > EXACT * value.abs() {
+            true => format!("{name} = {} ± {}", short_digits(value, 4), two_digits(u)),
+            false => format!("{name} = {}", short_digits(value, 4)),
+        };
+        let parts: Vec<String> = parts.map(part).collect();
         let [pressure, shear] = run.balance();
         if pressure.max(shear) - 1.0 > UNBALANCED || 1.0 - pressure.min(shear) > UNBALANCED {
             caution(&format!(
@@ -72,6 +89,14 @@ pub fn summary(runs: &[RunFields]) -> String {
                 "{}: the solid fraction {} is outside {low} to {high}, that of dense flows; check `length`, `width` and the radii",
                 run.name,
                 short_digits(solid, 2)
+            ));
+        }
+        let (inertia, _) = run.core[POINT[0]];
+        if inertia > FASTEST {
+            caution(&format!(
+                "{}: I = {} is above {FASTEST}, that of dense flows; check the units of velocity, radius and density",
+                run.name,
+                short_digits(inertia, 2)
             ));
         }
         let stress = if [pressure, shear] == [1.0, 1.0] {

@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 
 /// Columns of grains; the first five are needed, the next two with contacts.
 pub(super) const GRAINS: &[ExternalColumn] = &[
-    ExternalColumn::new("y", "m", "place over the depth"),
-    ExternalColumn::new("vx", "m/s", "velocity along the flow"),
-    ExternalColumn::new("vy", "m/s", "velocity over the depth"),
+    ExternalColumn::new("y", "m", "height above the bed"),
+    ExternalColumn::new("vx", "m/s", "velocity along the flow, down a slope"),
+    ExternalColumn::new("vy", "m/s", "velocity away from the bed"),
     ExternalColumn::new("radius", "m", "radius"),
     ExternalColumn::new("density", "kg/m^3", "density of the grain's material"),
     ExternalColumn::new("x", "m", "place along the flow"),
@@ -118,6 +118,9 @@ impl GrainRun {
             return Err(FieldError::finding("shear_stress", "missing", remedy));
         }
         needed(&self.particles, &GRAINS[..if self.contacts.is_some() { 7 } else { 5 }])?;
+        if !self.kinds.is_empty() {
+            needed(&self.particles, &GRAINS[7..])?;
+        }
         let of_contacts =
             |error: FieldError| FieldError { field: error.field.replace("particles", "contacts"), ..error };
         self.contacts.as_ref().map_or(Ok(()), |files| needed(files, &CONTACTS[..4]).map_err(of_contacts))

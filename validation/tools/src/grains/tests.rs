@@ -172,3 +172,41 @@ fn slope_of_yade_has_its_own_sums_in_both_formats() {
         assert!((sum / own - 1.0).abs() < 0.01, "column {column}: {sum} is not {own}");
     }
 }
+
+#[test]
+fn layers_upside_down_repeated_and_of_two_sizes_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    drawn(folder.path(), 6, 1500, 5);
+    let plan = plan(folder.path(), "slope_angle = 20.0");
+    let file = folder.path().join("grains.dump");
+    let text = std::fs::read_to_string(&file).expect("written");
+    // rows `id type y vx vy radius`
+    let changed = |change: &dyn Fn(&mut [f64])| -> String {
+        let of_line = |line: &str| {
+            let values: Option<Vec<f64>> = line.split(' ').map(|word| word.parse().ok()).collect();
+            values.filter(|values| values.len() == 6).map_or_else(
+                || format!("{line}\n"),
+                |mut values| {
+                    change(&mut values);
+                    values.iter().map(f64::to_string).collect::<Vec<_>>().join(" ") + "\n"
+                },
+            )
+        };
+        text.lines().map(of_line).collect()
+    };
+    let message = |text: &str| {
+        std::fs::write(&file, text).expect("written");
+        average(&plan).map(|_| ()).map_err(|error| error.to_string())
+    };
+    assert_eq!(message(&changed(&|_| {})), Ok(()));
+    let fault = |change: &dyn Fn(&mut [f64])| message(&changed(change)).expect_err("refused");
+    assert!(fault(&|row| row[2] = LAYER[0] - row[2]).contains("falls with the height; let `y` be the height above"));
+    assert!(fault(&|row| row[3] = -row[3]).contains("falls with the height"));
+    let of_two = fault(&|row| row[5] *= if row[0] % 2.0 == 0.0 { 1.0 } else { 2.0 });
+    assert!(of_two.contains("two distributions, up to 0.0005") && of_two.contains("give `grain_diameter`"), "{of_two}");
+    // the second frame again in the place of the third
+    let mut frames: Vec<&str> = text.split("ITEM: TIME\n").collect();
+    frames[3] = frames[2];
+    let repeated = message(&frames.join("ITEM: TIME\n")).expect_err("refused");
+    assert!(repeated.contains("two frames hold the same grains"), "{repeated}");
+}

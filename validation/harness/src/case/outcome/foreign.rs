@@ -89,8 +89,11 @@ impl ExternalSchema {
                 ("not used by this case", "leave it out, and give single numbers under `numbers`".to_owned())
             } else {
                 let question = did_you_mean(&nearest(name, names.iter().copied()));
-                let known = names.join(", ");
-                ("unknown name", format!("{question}known are {known}; `bagnold judge --template` explains them"))
+                let known = |ExternalColumn { name, unit, description }: &ExternalColumn| {
+                    format!("{name} [{unit}] ({description})")
+                };
+                let known: Vec<String> = items.iter().map(known).collect();
+                ("unknown name", format!("{question}known are {}", known.join(", ")))
             };
             FieldError::finding(&format!("{field}.{name}"), defect, &remedy)
         })
@@ -250,7 +253,7 @@ mod tests {
             |items, name| ExternalSchema::find(items, "series.columns", name).expect_err("unknown").to_string();
         assert_eq!(
             message(ITEMS, "frnt"),
-            "`series.columns.frnt`: unknown name; did you mean `front`? known are front, height; `bagnold judge --template` explains them"
+            "`series.columns.frnt`: unknown name; did you mean `front`? known are front [m] (place of the front), height [m] (height)"
         );
         assert_eq!(
             message(&[], "front"),
