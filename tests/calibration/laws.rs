@@ -3,6 +3,7 @@
 use super::coverage::normal;
 use super::findings::{outcome, plan};
 use bagnold_tools::calibration::{CalibrationResult, write};
+use bagnold_validation::REGISTRY;
 use std::path::Path;
 
 /// μ_s, μ_2 and I_0 of the truth, and the standard uncertainty of a friction `[-]`.
@@ -81,4 +82,20 @@ fn plateau_beyond_the_data_is_told() {
         findings.contains("limiting_friction") && findings.contains("beyond the data, which end at I = 0.1"),
         "{findings}"
     );
+}
+
+#[test]
+fn an_end_at_the_bound_of_another_parameter_and_a_point_without_shear_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // a plateau far beyond the data: both grow together, until one meets its bound
+    let outcome = fitted(folder.path(), 0.1, 0);
+    let told = "the upper end of `reference_inertia` is where `limiting_friction` meets its bound";
+    assert!(outcome.findings.iter().any(|finding| finding.starts_with(told)), "{:?}", outcome.findings);
+    let points = std::fs::read_to_string(folder.path().join("points.csv")).expect("written");
+    std::fs::write(folder.path().join("points.csv"), points.replacen("\n0.01,", "\n-0.01,", 1)).expect("written");
+    let limits = bagnold_harness::case::Limits::default();
+    let file = folder.path().join("plan.toml");
+    let refused = bagnold_tools::calibration::CalibrationPlan::read(&file, *REGISTRY, limits);
+    let message = refused.expect_err("refused").to_string();
+    assert!(message.contains("`fit[0].data` is I = -0.01, but must be positive"), "{message}");
 }

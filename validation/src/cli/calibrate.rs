@@ -23,9 +23,10 @@ pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Re
         let searches = (1 + usize::from(plan.budget.starts > 0)) * (1 + scatter);
         let search = if plan.levels.is_empty() { searches * plan.budget.evaluations } else { grid };
         let search = search + scatter * plan.region_evaluations;
-        let each = plan.blocks.iter().filter(|block| !block.held_out).count() * plan.repeats.count;
+        let each = plan.blocks.iter().filter(|block| !block.held_out && !block.is_law).count() * plan.repeats.count;
         let intervals = plan.region_evaluations + scatter;
-        let rest = format!("{intervals} for intervals; simulations per evaluation: {each}");
+        let simulations = if each == 0 { String::new() } else { format!("; simulations per evaluation: {each}") };
+        let rest = format!("{intervals} for intervals{simulations}");
         session.note(&format!("planned evaluations: up to {search} for the search, {rest}"));
     }
     if let Some(cost) = EvaluationCost::of(&plan, session.registry) {

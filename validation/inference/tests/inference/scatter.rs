@@ -92,6 +92,36 @@ fn as_if_it_did_not_scatter_they_would_not() {
     assert!(held(1.0, Repeatability::Smooth).iter().any(|count| *count < 13));
 }
 
+/// One parameter that hardly counts up to a threshold, and predictions that rise steeply beyond it and scatter.
+struct Cliff(Scattering);
+
+impl Evaluate for Cliff {
+    type Error = Infallible;
+    fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
+        let Self(own) = self;
+        let mut one = |u: &Vec<f64>| -> Vec<f64> {
+            let rise = 0.5 * (u[0] - 0.4) + 6.0 * libm::tanh(30.0 * (u[0] - 0.7)).max(0.0);
+            own.noise.iter().map(|noise| rise - noise + 0.3 * own.random.normal()).collect()
+        };
+        Ok(points.iter().map(|u| Some(one(u))).collect())
+    }
+}
+
+#[test]
+fn an_end_that_its_own_runs_contradict_is_not_settled() {
+    let mut contradicted = 0;
+    for seed in 0..4 {
+        let mut model = Cliff(Scattering::new(seed, 0.0));
+        let answer =
+            solve(&mut model, &SolvePlan { start: vec![0.5], ..plan(Repeatability::Scattering) }).expect("it works");
+        let explored = answer.explored.expect("points enough");
+        let end = &explored.ends[0][1];
+        contradicted += usize::from(!end.settled);
+        assert!(!end.settled || end.point[0] < 0.8, "{end:?}");
+    }
+    assert!(contradicted > 0, "the smooth fit follows the threshold: no test");
+}
+
 mod long {
     use super::*;
 

@@ -222,7 +222,8 @@ impl DatumText {
     fn of_file(&self, block: usize, files: &MeasuredFiles) -> Result<Vec<Datum>, ToolError> {
         let (over, column) = (self.x.as_deref().map(parted), self.y.as_deref().map(parted));
         let quantity = column.map(|(name, _)| name).or(self.metric.as_deref()).unwrap_or_default();
-        let wanted = WantedColumns { over: over.map(|(name, _)| name), quantity: &[quantity, "value"] };
+        let wanted =
+            WantedColumns { over: over.map(|(name, _)| name), quantity: &[quantity, "value"], ..Default::default() };
         let data = Measurements::read(files, wanted)?;
         let unit = column.map_or(&*data.measured.unit, |(_, unit)| unit);
         let points = data.in_units(over.map_or("-", |(_, unit)| unit), unit)?;

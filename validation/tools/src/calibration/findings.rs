@@ -8,6 +8,9 @@ use crate::inference::search::Evaluated;
 use crate::inference::{Answer, Explored, ParameterLabel, Region, SerialCorrelation, Termination, UNLIKELY, assess};
 use crate::number::{four_digits, short_digits};
 
+/// Distance from a bound, as a share of the range, that is none.
+const AT_BOUND: f64 = 1e-6;
+
 /// Everything that a search and its region leave open, the gravest first.
 pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison]) -> Vec<String> {
     let mut findings = of_search(plan, answer);
@@ -44,8 +47,9 @@ fn of_search(plan: &CalibrationPlan, answer: &Answer) -> Vec<String> {
         let names = plan.parameters.iter().zip(plan.values(&minimum.point));
         let place: Vec<String> =
             names.map(|(parameter, value)| format!("`{}` = {}", parameter.name, short_digits(value, 3))).collect();
+        let why = if plan.repeats.count > 1 { " (that of the smooth fit through all runs)" } else { "" };
         findings.push(format!(
-            "a second minimum also agrees with the data at 95 %: {} with χ² {}, the best has {}",
+            "a second minimum also agrees with the data at 95 %: {} with χ² {}, the best{why} has {}",
             place.join(", "),
             short_digits(minimum.chi_squared, 3),
             short_digits(search.chi_squared, 3)
@@ -106,7 +110,7 @@ fn stepped(plan: &CalibrationPlan, answer: &Answer, explored: &Explored, fit: &[
     let places: Vec<String> = (0..ends[0].len()).filter(|&k| ends[0][k] != ends[1][k]).map(name).collect();
     Some(format!(
         "χ² has steps, which more evaluations do not settle: `{}` is the same at {}, where it should differ by {} σ; refine \
-         `spacing`, raise the `thickness` of front gauges{}{}",
+         `spacing`, raise the `thickness` of front gauges (in the measurements too){}{}",
         fit[step.datum].label,
         places.join(", "),
         short_digits(step.promised, 2),
@@ -156,12 +160,19 @@ fn of_region(plan: &CalibrationPlan, explored: &Explored) -> Vec<String> {
         plan.parameters.iter().map(|p| ParameterLabel { name: p.name.clone(), unit: p.unit.clone() }).collect();
     let mut findings: Vec<String> =
         assess(&region.jacobian(), region, &names, &physical).iter().map(ToString::to_string).collect();
-    for (parameter, ends) in names.iter().zip(&explored.ends) {
+    for (k, (parameter, ends)) in names.iter().zip(&explored.ends).enumerate() {
         for (end, word) in ends.iter().zip(["lower", "upper"]) {
+            let at_bound = |other: &usize| *other != k && !(AT_BOUND..=1.0 - AT_BOUND).contains(&end.point[*other]);
+            if let Some(other) = (0..names.len()).find(at_bound).filter(|_| !end.open) {
+                findings.push(format!(
+                    "the {word} end of `{}` is where `{}` meets its bound: wider bounds would move it",
+                    parameter.name, names[other].name
+                ));
+            }
             if !end.settled {
                 let (open, given) = match plan.repeats.count {
                     1 => ("the model has not confirmed", ", and the wider of what it and its emulator say is given"),
-                    _ => ("too few runs lie about", ""),
+                    _ => ("too few runs lie about, or they disagree with their smooth fit at,", ""),
                 };
                 findings.push(format!(
                     "interval not settled: {open} the {word} end of `{}`{given}; allow more `region_evaluations`",

@@ -3,7 +3,7 @@
 use super::objective::Objective;
 use super::plan::{CalibrationPlan, DataBlock};
 use super::result::{CalibrationResult, DatumComparison};
-use super::target::CURVE;
+use super::target::{CURVE, Datum};
 use crate::case::ParameterError;
 use crate::evaluation::{EvaluationRecord, toml_number};
 use crate::input::{FieldError, number_in};
@@ -29,16 +29,31 @@ impl DataBlock {
         table
     }
 
+    /// Refuses points without shear: a law of the inertial number says nothing of them.
+    pub(super) fn check_inertia(&self, data: &[Datum]) -> Result<(), FieldError> {
+        let places = data.iter().filter(|_| self.is_law).filter_map(|datum| datum.target.place());
+        places.map(|place| place.at).find(|at| *at <= 0.0).map_or(Ok(()), |at| {
+            let field = format!("{}.data", self.field);
+            Err(FieldError::new(&field, format!("I = {at}"), "positive", "leave out points without shear"))
+        })
+    }
+
     /// Friction `[-]` of the block's law over inertial number `[-]` and pressure `[Pa]`.
     fn friction(&self, settings: &[String]) -> Result<impl Fn(f64, f64) -> f64 + use<>, ParameterError> {
         let fields = self.law_fields(settings);
         let [diameter, density] =
             ["grain_diameter", "grain_density"].map(|name| fields.get(name).and_then(number_in).unwrap_or(1.0));
         let law: Rheology = Value::Table(fields).try_into().map_err(|error: toml::de::Error| {
-            let field = format!("{}.with", self.field);
-            ParameterError::from(FieldError::finding(&field, error.message(), "correct `with`, or the paths"))
+            let (part, remedy) = match error.message().contains("variant") {
+                true => ("law", "give one of these names"),
+                false => ("with", "correct `with`, or the paths"),
+            };
+            ParameterError::from(FieldError::finding(&format!("{}.{part}", self.field), error.message(), remedy))
         })?;
         rules::material(&format!("{}.with", self.field), &law)?;
+        if law.field().is_some() {
+            return Err(self.no_formula());
+        }
         Ok(move |inertia: f64, pressure: f64| {
             let rate = inertia * (pressure / density).sqrt() / diameter;
             law.viscosity(rate, pressure) * rate / pressure
@@ -47,17 +62,22 @@ impl DataBlock {
 
     /// Refuses a law that is no formula of I, and parameters that it does not have.
     pub(super) fn check_law(&self, plan: &CalibrationPlan, settings: &[String]) -> Result<(), ParameterError> {
+        if !plan.choices.is_empty() {
+            let remedy = "fit each law in a plan of its own, and compare `fit error`";
+            return Err(FieldError::finding("choices", "given beside a law", remedy).into());
+        }
         let friction = self.friction(settings)?;
         let is_one = |inertia: &f64| {
             let [low, high] = PRESSURES.map(|pressure| friction(*inertia, pressure));
             (low - high).abs() <= ROUNDING * low.abs()
         };
-        if plan.choices.is_empty() && TRIED.iter().all(is_one) {
-            return Ok(());
-        }
-        let rule = "a law whose friction depends on the inertial number only, without `choices`";
-        let remedy = "choose mu-i, or fit a case that runs this law";
-        Err(FieldError::new(&format!("{}.law", self.field), &self.request.case, rule, remedy).into())
+        if TRIED.iter().all(is_one) { Ok(()) } else { Err(self.no_formula()) }
+    }
+
+    fn no_formula(&self) -> ParameterError {
+        let rule = "a formula of the inertial number alone, such as mu-i";
+        let remedy = "choose that, or fit a case that runs this law";
+        FieldError::new(&format!("{}.law", self.field), &self.request.case, rule, remedy).into()
     }
 }
 

@@ -246,6 +246,7 @@ fn render(
         "summary": summary(outcome).into_iter().chain(judged.map(HeldOutJudgement::in_words)).collect::<Vec<_>>().iter().map(|line| with_code(line)).collect::<Vec<_>>(),
         "pictures": pictures,
         "ends": outcome.ends_in_words(),
+        "is_case": !outcome.calibrated.is_empty(),
         "outcome": outcome,
     });
     page::fill(&[("index.html", include_str!("template/index.html"))], "index.html", &page)

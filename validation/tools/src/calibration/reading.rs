@@ -31,8 +31,13 @@ impl CalibrationPlan {
 
     /// The data's files are read before the folder of the calibration is touched, so that a bad one leaves nothing behind.
     fn check_data(&self) -> Result<(), ToolError> {
-        let mut texts = self.blocks.iter().flat_map(|block| &block.data);
-        texts.try_for_each(|text| text.read(0, &self.file).map(drop))
+        for block in &self.blocks {
+            for text in &block.data {
+                let data = text.read(0, &self.file)?;
+                block.check_inertia(&data).map_err(|error| error.in_file(&self.file))?;
+            }
+        }
+        Ok(())
     }
 
     fn check_cases(&self, registry: Registry) -> Result<(), ToolError> {

@@ -14,6 +14,8 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+/// Evaluations of formulas over those of simulations, where none are given.
+const FORMULA: usize = 10;
 /// More evaluations than this are a slip of the pen.
 const MOST_EVALUATIONS: usize = 10_000;
 
@@ -152,6 +154,12 @@ impl CalibrationText {
         let local = matches!(method, Method::TrustRegion | Method::Posterior);
         let usual_starts = if local && !parameters.is_empty() { 2 * parameters.len() + 2 } else { 0 };
         budget.starts = self.starts.unwrap_or(usual_starts);
+        let blocks = blocks(self.fit, self.hold_out)?;
+        // a formula costs nothing
+        let more = if blocks.iter().all(|block| block.is_law) { FORMULA } else { 1 };
+        if self.evaluations.is_none() {
+            budget.evaluations *= more;
+        }
         Ok(CalibrationPlan {
             file: file.to_owned(),
             title: self.title,
@@ -162,11 +170,11 @@ impl CalibrationText {
             limits,
             repeats,
             trajectories: self.trajectories,
-            region_evaluations: self.region_evaluations.unwrap_or(usual),
+            region_evaluations: self.region_evaluations.unwrap_or(more * usual),
             parameters,
             levels,
             choices: self.choices,
-            blocks: blocks(self.fit, self.hold_out)?,
+            blocks,
         })
     }
 
@@ -330,9 +338,10 @@ impl ParameterText {
             check_name(&format!("{field}.name"), name)?;
         }
         check_text(&format!("{field}.unit"), &self.unit)?;
+        let is_angle = self.unit == "-" && self.path.name() == "friction_angle";
         Ok(CalibratedParameter {
             name: self.name.clone().unwrap_or_else(|| self.path.name()),
-            unit: self.unit.clone(),
+            unit: if is_angle { "°".to_owned() } else { self.unit.clone() },
             bounds,
             start,
             truth: self.truth,
