@@ -185,7 +185,7 @@ impl PredictionPlan {
         let read = |quantity: &'static str| {
             let is_own = |own: &&Quantity| Some(own.name) == quantity.split(' ').next();
             let unit = described.iter().find(is_own).map_or("-", |own| own.unit);
-            let wanted = WantedColumns { over: None, quantity: &[quantity] };
+            let wanted = WantedColumns { quantity: &[quantity], ..Default::default() };
             let measured = Measurements::read(&MeasuredFiles::One(file.to_owned()), wanted)?;
             let points = measured.in_units("-", unit)?;
             let [[_, value, uncertainty]] = points[..] else {

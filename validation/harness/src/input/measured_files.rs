@@ -60,20 +60,35 @@ pub fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Resu
             let is_meant = |own: &str| !unit.is_empty() && (own == text || own == bare);
             if !headings.iter().any(|own| is_meant(own)) {
                 let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
-                let own = headings.iter().find(|own| **own == text).or(headings.last()).unwrap_or(&"toe");
-                let own = name_and_unit(own).map_or_else(|| format!("{own} [cm]"), |_| (*own).to_owned());
+                let first = |own: &str| own.split([' ', '(', '[']).next().unwrap_or_default().to_owned();
+                let same = headings.iter().find(|own| first(own) == first(text)).or(headings.last()).unwrap_or(&"toe");
+                let of_name = if ["t", "time"].contains(&name.as_str()) { "ms" } else { "cm" };
+                let unit = stated(same).filter(|own| unit::is_known(own)).unwrap_or(of_name);
+                let own = name_and_unit(same).map_or_else(|| format!("{same} [{unit}]"), |_| (*same).to_owned());
                 let remedy = format!("write the heading and its unit in brackets, such as {name} = \"{own}\"");
                 return Err(FieldError::new(&format!("columns.{name}"), one, &rule, &remedy));
             }
-            let stated = bare.rsplit_once('(').and_then(|(_, rest)| rest.strip_suffix(')'));
-            if stated.is_some_and(|own| unit::is_known(own) && unit::factor(own, unit) != Some(1.0)) {
-                let (rule, remedy) = ("the unit that the heading states", "correct the unit in brackets");
-                return Err(FieldError::new(&format!("columns.{name}"), one, rule, remedy));
-            }
+            check_stated(bare, unit).map_err(|rule| {
+                FieldError::new(&format!("columns.{name}"), one, &rule, "correct the unit in brackets")
+            })?;
             for (new, _) in renamed.iter_mut().zip(headings).filter(|(_, own)| is_meant(own)) {
                 *new = format!("{name} [{unit}]");
             }
         }
     }
     Ok(renamed)
+}
+
+/// Unit in parentheses at the end of a heading.
+fn stated(heading: &str) -> Option<&str> {
+    heading.rsplit_once('(').and_then(|(_, rest)| rest.strip_suffix(')'))
+}
+
+/// Refuses a unit that is not the one in the heading's own parentheses, with the rule.
+///
+/// # Errors
+/// The heading states another unit.
+pub fn check_stated(heading: &str, unit: &str) -> Result<(), String> {
+    let other = stated(heading).filter(|own| unit::is_known(own) && unit::factor(own, unit) != Some(1.0));
+    other.map_or(Ok(()), |own| Err(format!("the unit that the heading states, [{own}]")))
 }

@@ -14,7 +14,7 @@ pub mod unit;
 pub use escape::{escaped, escaped_lines, is_control, shown};
 pub(crate) use field::before;
 pub use field::{FieldError, Origin};
-pub use measured_files::{MeasuredFiles, renamed};
+pub use measured_files::{MeasuredFiles, check_stated, renamed};
 pub(crate) use mesh::{MOST_TRIANGLES, Triangle, read_mesh};
 pub use name::{
     check_name, check_text, did_you_mean, is_same_heading, is_uncertainty, name_and_unit, nearest, parted, unnumbered,

@@ -1,7 +1,7 @@
 //! Columns of an external file: the quantity and unit of each.
 
 use crate::case::{ExternalColumn, RunScales};
-use crate::input::{FieldError, name_and_unit, number_in, unit};
+use crate::input::{FieldError, check_stated, name_and_unit, number_in, unit};
 
 /// Source of the values of a quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +34,8 @@ impl ColumnSource {
         match value {
             toml::Value::String(text) => {
                 let (name, unit) = name_and_unit(text).ok_or_else(|| wrong(format!("\"{text}\"")))?;
+                check_stated(name, unit)
+                    .map_err(|rule| FieldError::new(field, value, &rule, "correct the unit in brackets"))?;
                 Ok(Self::Heading { text: text.clone(), name: name.to_owned(), unit: unit.to_owned() })
             }
             toml::Value::Table(table) => {

@@ -5,12 +5,12 @@ mod drawing;
 mod place;
 mod reading;
 
+pub use crate::evidence::WantedColumns;
 pub use column::ColumnSource;
 pub use place::{COARSE, HALF_A_ROW, coarse_in_words};
-pub use reading::WantedColumns;
 
 use crate::case::{CaseResult, ParameterError, PreparedCase};
-use crate::evidence::NumberColumn;
+use crate::evidence::{NumberColumn, in_unit};
 use crate::input::{FieldError, MeasuredFiles};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Origin, Variant};
 use crate::number::four_digits;
@@ -162,7 +162,7 @@ impl Measurements {
     pub fn in_units(&self, abscissa: &str, measured: &str) -> Result<Vec<[f64; 3]>, FieldError> {
         let uncertainty = NumberColumn { values: self.uncertainty.clone(), ..self.measured.clone() };
         let columns = [(&self.abscissa, abscissa), (&self.measured, measured), (&uncertainty, measured)];
-        let columns = columns.map(|(own, to)| reading::in_unit(own, to).map_err(|error| error.in_file(&self.path)));
+        let columns = columns.map(|(own, to)| in_unit(own, to).map_err(|error| error.in_file(&self.path)));
         let [x, y, u] = columns;
         Ok(x?.into_iter().zip(y?).zip(u?).map(|((x, y), u)| [x, y, u]).collect())
     }
@@ -190,7 +190,9 @@ impl Measurements {
         let left_out = || format!("`{}` has a value at {compared} of {all} measurements", curve.label);
         let remarks = (compared < all).then(left_out).into_iter().chain(curve.coarse.clone());
         let confidence = self.said.confidence.unwrap_or(Confidence::Low);
-        let metric = Metric::observed("overlay_residual", &variant, curve.residual, "-")
+        let is_judged = curve.is_whole || self.said.limit.is_none();
+        let residual = if is_judged { curve.residual } else { f64::NAN };
+        let metric = Metric::observed("overlay_residual", &variant, residual, "-")
             .against(None, &self.source(), confidence)
             .remarked(remarks.reduce(|all, own| format!("{all}; {own}")))
             .known_to(Origin::Numerical, Some(curve.by_resolution), COARSE)

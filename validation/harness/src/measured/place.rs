@@ -1,8 +1,7 @@
 //! Figure panel that measurements belong to: the one whose axes match theirs, with its curves.
 
 use super::Measurements;
-use super::reading::heading as of_column;
-use crate::evidence::NumberColumn;
+use crate::evidence::{NumberColumn, heading as of_column};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::input::{FieldError, parted, unit};
 use crate::number::four_digits;
@@ -39,6 +38,8 @@ pub(super) struct CurveResidual {
     pub(super) by_resolution: f64,
     /// Measurements at which it has one.
     pub(super) compared: usize,
+    /// Whether it reaches from the first measurement to the last.
+    pub(super) is_whole: bool,
     /// Remark on uncertainties that are smaller than the curve's resolution.
     pub(super) coarse: Option<String>,
 }
@@ -139,7 +140,9 @@ impl MatchingPanel {
             let by_resolution = self.residual(measurements, &series.points, &[])?.0 - residual;
             let coarse = coarse_in_words(&points, parted(&panel.y.label).1);
             let label = series.label.clone();
-            Some(CurveResidual { label, residual, by_resolution, compared: points.len(), coarse })
+            let over: Vec<f64> = series.points.iter().map(|point| self.turned(*point).0).collect();
+            let is_whole = reaches(&over, measurements.abscissa.values.iter().map(|x| x * self.factors.0));
+            Some(CurveResidual { label, residual, by_resolution, compared: points.len(), is_whole, coarse })
         };
         let curves: Vec<CurveResidual> = series.iter().filter_map(residual).collect();
         if curves.is_empty() {
@@ -183,6 +186,14 @@ impl MatchingPanel {
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
         is_beside.then_some((mean.sqrt(), points))
     }
+}
+
+/// Whether abscissas of a curve reach from the first to the last of some places; the last row may stand just before the end of a run.
+fn reaches(over: &[f64], mut places: impl Iterator<Item = f64>) -> bool {
+    let end = |end: fn(f64, f64) -> f64| over.iter().copied().filter(|x| x.is_finite()).reduce(end);
+    let (Some(first), Some(last)) = (end(f64::min), end(f64::max)) else { return false };
+    let row = 0.1 * (last - first) / over.len() as f64;
+    places.all(|x| (first - row..=last + row).contains(&x))
 }
 
 /// Whether a series was drawn by a simulation.

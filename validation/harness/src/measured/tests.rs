@@ -116,6 +116,9 @@ fn measurements_at_a_dry_place_are_left_out_and_nothing_else_is_not_judged() {
     let wet = with("0.2,7,1\n0.55,7,1\n0.8,1.6,1\n");
     assert!(wet.value.abs() < 1e-12 && wet.verdict() == Verdict::Pass, "{}", wet.value);
     assert_eq!(wet.remark.as_deref(), Some("`sand` has a value at 1 of 3 measurements"));
+    // the run ends before a measurement
+    let short = with("0.8,1.6,1\n7,1,1\n");
+    assert!(short.value.is_nan() && short.verdict() == Verdict::Fail, "{}", short.value);
     let dry = with("0.2,7,1\n0.55,7,1\n");
     assert!(dry.value.is_nan() && dry.verdict() == Verdict::Fail, "{}", dry.value);
     assert_eq!(dry.reason_of_absence().map(String::as_str), Some("`sand` has a value at 0 of 2 measurements"));
@@ -321,7 +324,7 @@ fn repeats_are_a_mean_with_the_scatter_of_the_mean() {
 
 #[test]
 fn columns_are_found_by_their_names_or_by_those_that_a_plan_gives() {
-    let wanted = WantedColumns { over: Some("t"), quantity: &["tip: front"] };
+    let wanted = WantedColumns { over: Some("t"), quantity: &["tip: front"], is_only: false };
     let text =
         "# time depth\nnumber,depth [m],t [ms],uncertainty of depth [m],front [cm],sigma [mm]\n1,5,100,2,10,30\n";
     let own = read_of(&[text], "", wanted).expect("by heading");

@@ -97,11 +97,15 @@ impl EnergyBook {
         self.exchanged.0.max(self.exchanged.1).max(dissipated).max(self.entered.0 + self.entered.1)
     }
 
+    /// Energy that a cause has dissipated up to the last sample.
+    pub fn dissipated_by(&self, cause: &str) -> f64 {
+        self.dissipated.iter().find(|(name, _)| name == cause).map_or(0.0, |(_, energy)| *energy)
+    }
+
     /// Energy that the viscosity of the law has dissipated up to the last sample, and what the scheme has: by artificial terms, the
     /// hourglass control at walls and the density coupling, less what it has fed in beside gravity and walls.
     pub fn viscous_and_numerical(&self) -> (f64, f64) {
-        let of =
-            |cause: &str| self.dissipated.iter().find(|(name, _)| name == cause).map_or(0.0, |(_, energy)| *energy);
+        let of = |cause: &str| self.dissipated_by(cause);
         let physical: f64 =
             ["viscosity", "plastic flow", "contacts", "friction of side walls"].into_iter().map(of).sum();
         (of("viscosity"), self.walls - self.explained.last().unwrap_or(&0.0) - physical)

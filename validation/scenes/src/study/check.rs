@@ -214,7 +214,8 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
 fn measured(files: &MeasuredFiles, column: &ColumnWindow, beside: &Path) -> Result<Measurements, ParameterError> {
     let name = parted(&column.column).0;
     let over = column.over.as_deref().map(|over| parted(over).0);
-    let wanted = WantedColumns { over, quantity: if column.is_combined() { &[] } else { &[name] } };
+    let wanted =
+        WantedColumns { over, quantity: if column.is_combined() { &[] } else { &[name] }, ..Default::default() };
     Measurements::read(&files.beside(beside), wanted)
 }
 

@@ -2,12 +2,8 @@
 //! others, so that a run is known by them, whatever becomes of their file.
 
 use super::error::ParameterError;
-use super::rates::in_unit;
-use crate::input::{
-    DOCUMENT, FieldError, MeasuredFiles, TextTable, is_uncertainty, of_repeats, parted, read_text, renamed,
-};
-use crate::output::FileError;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::evidence::{MeasuredColumns, WantedColumns};
+use crate::input::MeasuredFiles;
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -44,82 +40,25 @@ pub(in crate::case) fn read_beside(fields: &mut Table, case: &str, path: &Path) 
             Some("depth") => ("depth", ["m", "m"]),
             _ => ("front", ["m", "m"]),
         };
-        let wanted = GaugeColumn { gauge, column, unit: units[usize::from(case == "scene-space")] };
-        let columns = if let MeasuredFiles::Named { columns, .. } = &files { Some(columns) } else { None };
-        let [only] = files.files() else {
-            let (value, remedy) = (files.files().len(), "give the repeats as columns of one file");
-            return Err(
-                ParameterError::field("measured.file", format!("{value} files"), "one file", remedy).in_file(path)
-            );
-        };
-        let file = path.parent().unwrap_or(Path::new("")).join(only);
-        let text = read_text(&file, DOCUMENT).map_err(|error| FileError::unreadable(&file, &error))?;
+        let unit = units[usize::from(case == "scene-space")];
+        let both = format!("{gauge}: {column}");
+        let wanted = WantedColumns { quantity: &[gauge, column, &both], is_only: true, ..Default::default() };
+        let beside = files.beside(path.parent().unwrap_or(Path::new("")));
+        let read = MeasuredColumns::read::<ParameterError>(&beside, wanted)?;
+        let points = read.means("s", unit).map_err(|error| error.in_file(&beside.files()[0]))?;
         let row = |(time, value): (f64, f64)| Value::Array(vec![Value::Float(time), Value::Float(value)]);
-        let rows: Vec<Value> = rows(&text, &file, &wanted, columns)?.into_iter().map(row).collect();
-        let name = only.display().to_string();
+        let rows: Vec<Value> = points.into_iter().map(row).collect();
+        let names: Vec<String> = files.files().iter().map(|file| file.display().to_string()).collect();
+        let name = names.join(", ");
         measured.insert("points".to_owned(), rows.into());
         measured.insert("file".to_owned(), name.into());
     }
     Ok(())
 }
 
-/// First column of a gauge.
-struct GaugeColumn<'a> {
-    gauge: &'a str,
-    column: &'a str,
-    unit: &'a str,
-}
-
-/// Times `[s]` and values of a gauge, of repeats their mean; without a unit they are taken as they are.
-fn rows(
-    text: &str,
-    file: &Path,
-    &GaugeColumn { gauge, column, unit }: &GaugeColumn<'_>,
-    columns: Option<&BTreeMap<String, Value>>,
-) -> Result<Vec<(f64, f64)>, FieldError> {
-    let mut table = TextTable::parse(text, file)?;
-    if let Some(columns) = columns {
-        let given: Vec<&str> = table.headings.iter().map(String::as_str).collect();
-        let meant = renamed(&given, columns).map_err(|error| error.in_file(file))?;
-        let all = meant.into_iter().zip(std::mem::take(&mut table.columns));
-        let mut meant: Vec<(String, Vec<f64>)> = all.filter(|(heading, _)| !heading.is_empty()).collect();
-        meant.sort_by_key(|(heading, _)| !["t", "time"].contains(&parted(heading).0));
-        (table.headings, table.columns) = meant.into_iter().unzip();
-    }
-    let names: Vec<String> = table.headings.iter().map(|heading| of_repeats(heading)).collect();
-    let quantities: BTreeSet<&str> =
-        names.iter().skip(1).map(String::as_str).filter(|name| !is_uncertainty(parted(name).0)).collect();
-    let bare: BTreeSet<&str> = quantities.iter().map(|name| parted(name).0).collect();
-    if bare.len() < quantities.len() {
-        let defect = format!("one quantity in several units: {}", names.join(", "));
-        return Err(FieldError::finding("columns", defect, "convert the columns to one unit").in_file(file));
-    }
-    let is_named = |name: &&&str| {
-        let own = parted(name).0;
-        own == gauge || own == column || own.strip_prefix(gauge) == Some(&format!(": {column}"))
-    };
-    // another column of a gauge is another quantity
-    let is_other = |name: &&&str| [": ", " along "].iter().any(|mark| parted(name).0.contains(mark));
-    let only = quantities.first().filter(|name| quantities.len() == 1 && !is_other(name));
-    let Some(heading) = quantities.iter().find(is_named).or(only) else {
-        let defect = format!("none of {} is the {column} of `{gauge}`", names.join(", "));
-        let repeats = format!("repeats as several columns `{gauge} [{unit}]`");
-        let own = format!(
-            "name your own headings by file = {{ files = […], columns = {{ t = \"ms [ms]\", {gauge} = [\"run A [cm]\"] }} }}"
-        );
-        let remedy = format!("write `t [ms],{gauge} [{unit}]` above the rows, {repeats}, or {own}");
-        return Err(FieldError::finding("columns", defect, &remedy).in_file(file));
-    };
-    let times = in_unit(&names[0], &table.columns[0], "s", file)?;
-    let values = in_unit(heading, &table.column(heading, "columns", file)?, unit, file)?;
-    Ok(times.into_iter().zip(values).collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const TOE: GaugeColumn<'_> = GaugeColumn { gauge: "toe", column: "front", unit: "m" };
 
     #[test]
     fn repeats_in_centimetres_become_rows_of_their_mean_in_metres() {
@@ -145,23 +84,43 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_series_of_the_gauge_is_named() {
-        let read = |text: &str| rows(text, Path::new("a.csv"), &TOE, None).map_err(|error| error.to_string());
-        for (text, said) in [
+    fn files_of_repeats_count_by_their_mean_at_common_times_and_what_is_no_series_is_named() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let read = |texts: &[&str]| {
+            for (name, text) in ["a.csv", "b.csv"].iter().zip(texts) {
+                std::fs::write(folder.path().join(name), text).expect("writable");
+            }
+            let files = if texts.len() == 1 { "\"a.csv\"" } else { "[\"a.csv\", \"b.csv\"]" };
+            let text =
+                format!("[[gauges]]\nkind = \"front\"\nname = \"toe\"\n[[measured]]\ngauge = \"toe\"\nfile = {files}");
+            let mut fields: Table = toml::from_str(&text).expect("TOML");
+            let read = read_beside(&mut fields, "scene", &folder.path().join("case.toml"));
+            read.map(|()| fields["measured"][0]["points"].to_string()).map_err(|error| error.to_string())
+        };
+        let other = "t [s],toe [m]\n0.3,0.3\n0.15,0.15\n0.05,0.05\n";
+        assert_eq!(
+            read(&["t [s],toe [cm]\n0.1,20\n0.2,30\n0.4,50\n", other]).as_deref(),
+            Ok("[[0.1, 0.15], [0.2, 0.25]]")
+        );
+        assert_eq!(read(&["t [ms],toe: front [cm],other [m]\n1000,200,7\n"]).as_deref(), Ok("[[1.0, 2.0]]"));
+        for (texts, said) in [
             (
-                "t [s],toe [cm],toe #2 [mm]\n0,1,2\n",
-                "a.csv: `columns`: one quantity in several units: t [s], toe [cm], toe [mm];",
+                &["t [s],toe [cm]\n1,20\n", other][..],
+                "b.csv: `t` is between 0.05 and 0.3, but must be with values between 1 and 1;",
             ),
             (
-                "t [s],toe: front at half a row more [m]\n0,1\n",
-                "a.csv: `columns`: none of t [s], toe: front at half a row more [m] is the front of `toe`;",
+                &["t [s],toe: front at half a row more [m]\n0,1\n"],
+                "a.csv: `columns`: no column `toe` among t [s], toe: front at",
             ),
-            ("t [s],toe [s]\n0,1\n", "a.csv: `toe [s]` is [s], but must be a unit that converts to [m]"),
-            ("t [s],u [m],v [m]\n0,1,2\n", "a.csv: `columns`: none of t [s], u [m], v [m] is the front of `toe`;"),
-            ("t [s]\n0\n", "a.csv: `columns`: none of t [s] is the front of `toe`; write `t [ms],toe [m]` above"),
+            (&["t [s],toe [s]\n0,1\n"], "a.csv: `toe` is [s], but must be a unit that converts to [m]"),
+            (
+                &["t [s],u [m],v [m]\n0,1,2\n"],
+                "a.csv: `columns`: no column `toe` among t [s], u [m], v [m]; rename one, or",
+            ),
+            (&["t [s]\n0\n"], "a.csv: `columns`: no column `toe` among t [s];"),
         ] {
-            assert!(read(text).is_err_and(|message| message.starts_with(said)), "{said}: {:?}", read(text));
+            let found = read(texts);
+            assert!(found.as_ref().is_err_and(|message| message.contains(said)), "{said}: {found:?}");
         }
-        assert_eq!(read("t,toe: front [cm],other [m]\n1,200,7\n"), Ok(vec![(1.0, 2.0)]));
     }
 }
