@@ -170,6 +170,35 @@ fn a_front_that_falls_back_is_told() {
     assert!(table.contains(",line,front [m],"), "{table}");
 }
 
+/// Plates that shear grains too fast for their particles, stop before the end or are pulled off are told.
+#[test]
+fn a_shear_cell_beyond_its_particles_is_told() {
+    let place = Place::new();
+    let scene = "case = \"scene\"\nname = \"cell\"\ngravity = [0.0, 0.0]\nspacing = 0.002\nduration = 0.2\ninterval = 0.02\n\
+        pressure = 100.0\ngauges = []\nsides = { left = { periodic = 0.0 }, right = { periodic = 0.02 }, bottom = \"none\", top = \
+        \"none\" }\nbodies = [{ shape = \"box\", lower = [0.0, 0.0], upper = [0.02, 0.02] }]\n[[walls]]\nname = \"lower\"\n\
+        points = [[0.0, 0.0], [0.02, 0.0]]\n[[walls]]\nname = \"upper\"\npoints = [[0.02, 0.02], [0.0, 0.02]]\n\
+        load = { direction = [0.0, -1.0], pressure = 100.0 }\n";
+    let file = place.file("cell.toml", scene);
+    let told = |motion: &str, direction: &str| {
+        let motion = format!("walls[1].motion=[[0.0, 0.0, 0.0], {motion}]");
+        let load = format!("walls[1].load.direction=[0.0, {direction}]");
+        let finished = place.run(&[&file, "--set", &motion, "--set", &load]);
+        String::from_utf8_lossy(&finished.get_output().stderr).into_owned()
+    };
+    let [coarse, ends, off] =
+        ["above 0.2 friction comes out too small", "motion of wall `upper` ends at 0.1 s", "points away from"];
+    for (motion, direction, expected) in [
+        ("[0.2, 0.4, 0.0]", "-1.0", [true, false, false]),
+        ("[0.2, 0.004, 0.0]", "-1.0", [false, false, false]),
+        ("[0.1, 0.002, 0.0]", "-1.0", [false, true, false]),
+        ("[0.2, 0.004, 0.0]", "1.0", [false, false, true]),
+    ] {
+        let text = told(motion, direction);
+        assert_eq!([coarse, ends, off].map(|words| text.contains(words)), expected, "{motion}, {direction}: {text}");
+    }
+}
+
 /// A box of some height `[m]` that falls onto a floor, with more fields before it.
 fn falls_with(fields: &str, top: f64) -> String {
     format!(

@@ -8,6 +8,7 @@ use crate::output::caution;
 use bagnold_number::four_digits;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
 use bagnold_solver::weakly_compressible::terms::stress_diffusion::STEEPEST;
 
 /// Largest Mach number `[-]` of a weakly compressible flow: density then varies by some per cent.
@@ -63,6 +64,13 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         }
         let opening = |wall: &S::Wall| Some(format!("; wall `{}` has {}", wall.name(), wall.openings()?));
         let openings = self.walls.iter().filter_map(opening);
+        let stop = |wall: &S::Wall| {
+            let Motion { times, displacements, .. } = wall.motion();
+            let ([.., before, last], end) = (&displacements[..], *times.last()?) else { return None };
+            let ends = end < self.duration && before != last;
+            ends.then(|| format!("; the motion of wall `{}` ends at {} s", wall.name(), four_digits(end)))
+        };
+        let openings = openings.chain(self.walls.iter().filter_map(stop));
         let beyond = self.inlets.iter().map(|own| own.rate().beyond(own.name(), self.duration, S::FLUX_UNIT));
         let grains = self.material.grain_diameter().map(|diameter| diameter / self.spacing);
         let grains = grains.map(|ratio| format!(", grain diameter {ratio:.2} particle spacings")).unwrap_or_default();

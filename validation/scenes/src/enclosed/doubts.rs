@@ -31,7 +31,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Warnings of lengths that are probably in millimetres, all of them or those of one part, and of a start without shear stress.
     pub(super) fn doubtful_parts(&self) -> Vec<String> {
         let found = self.stray().or_else(|| self.all_large()).into_iter().chain(self.sudden_release());
-        let found = found.chain(self.cut_by_periods()).chain(self.without_particles());
+        let found = found.chain(self.cut_by_periods()).chain(self.without_particles()).chain(self.pulled_off());
         found.map(|doubt| format!("scene `{}`: {doubt}", self.name)).chain(self.wide_gauges()).collect()
     }
 
@@ -65,6 +65,19 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             })
         };
         self.bodies.iter().enumerate().flat_map(of_body)
+    }
+
+    /// Walls whose load points away from all bodies, where nothing else holds them.
+    fn pulled_off(&self) -> impl Iterator<Item = String> {
+        let centre = |places: &[Vector<D>]| places.iter().sum::<Vector<D>>() / places.len() as f64;
+        let bodies: Vec<Vector<D>> =
+            self.bodies.iter().map(|body| body.extent()).flat_map(|(low, high)| [low, high]).collect();
+        self.walls.iter().filter_map(move |wall| {
+            let away = wall.load()?.direction.dot(&(centre(&bodies) - centre(&wall.hull()))) < 0.0;
+            let remedy = "nothing holds the bodies without gravity; turn `load.direction`";
+            (away && self.pull().norm() == 0.0)
+                .then(|| format!("the load of wall `{}` points away from the bodies, and {remedy}", wall.name()))
+        })
     }
 
     /// Bodies in which no place of a particle lies, but in those before them or beyond a side. A large one is not searched to its end,
