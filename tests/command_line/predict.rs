@@ -40,7 +40,22 @@ fn what_was_compared_with_measurements_is_told_from_what_was_not() {
     assert!(of("0.046", "0.02").contains("\ninside the range compared"));
     let deep = of("0.2", "0.02");
     assert!(deep.contains("outside the range compared") && deep.contains("fewer than ten runs"), "{deep}");
-    assert!(of("0.1", "0.0004").contains("no motion"));
+    let still = of("0.1", "0.0004");
+    assert!(still.starts_with("bed load      none: q* = ") && !still.contains("95 % interval"), "{still}");
+    assert!(still.contains("ripples and dunes"), "{still}");
+}
+
+#[test]
+fn a_measured_rate_is_inside_of_the_interval_or_not() {
+    let of = |rate: &str| {
+        let options =
+            ["predict", "bed-load", "--grain-diameter", "0.0025", "--draws", "8", "--depth", "0.08", "--slope"];
+        let finished = Place::new().bagnold(&[&options[..], &["0.02", "--measured", rate]].concat()).assert().code(0);
+        String::from_utf8_lossy(&finished.get_output().stdout).into_owned()
+    };
+    let [own, far] = [of("1.0"), of("100.0")];
+    assert!(own.contains("yours         1 kg/(m s), inside of the 95 % interval; predicted over yours: "), "{own}");
+    assert!(far.contains("outside of the 95 % interval") && far.contains(": antidunes)"), "{far}");
 }
 
 /// Static friction of a law and of its draws.

@@ -73,33 +73,51 @@ fn lines(own: &BlindComparison, metric: &Metric, plan: &PredictionPlan) -> Strin
     text
 }
 
+/// Acceleration of gravity `[m/s²]`.
+const GRAVITY: f64 = 9.81;
+
 /// Predicts the bed load of a flume.
 fn bed_load(own: &BedLoadArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
-    let BedLoadArguments { grain_diameter, grain_density, slope, depth, width, draws } = *own;
+    let BedLoadArguments { grain_diameter, grain_density, slope, depth, width, draws, measured } = *own;
     let flume = BedLoadFlume { grain_diameter, grain_density, slope, depth, width };
     let prediction = flume.predict(usize::from(draws))?;
-    session.say(&text(&flume, &prediction));
+    session.say(&text(&flume, &prediction, measured));
     Ok(Exit::Held)
 }
 
 /// The prediction in lines.
-fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
+fn text(flume: &BedLoadFlume, own: &TransportPrediction, by_user: Option<f64>) -> String {
     let of = |value: f64| four_digits(value);
     let unit = flume.grain_density * own.stream.transport_unit();
     let within = |(low, high): (f64, f64), unit: f64| format!("{} … {}", of(low * unit), of(high * unit));
     let both = |unit: f64| (of(own.transport * unit), within(own.interval, unit));
     let ((rate, interval), (dimensionless, own_interval)) = (both(unit), both(1.0));
-    let mut text = format!(
-        "bed load      {rate} kg/(m s); 95 % interval from closures and the scatter of measurements: {interval}\n"
-    );
-    text += &format!("              q* = {dimensionless} ({own_interval})\n");
-    if let Some(width) = flume.width {
-        let (rate, interval) = both(unit * width);
-        text += &format!("in the flume  {rate} kg/s ({interval}) over {} m\n", of(width));
+    let mut text = String::new();
+    if own.transport < LEAST_TRANSPORT {
+        text +=
+            &format!("bed load      none: q* = {dimensionless} is below {LEAST_TRANSPORT}, the threshold of motion; ");
+        text += "such values are creep of the regularised friction\n";
+    } else {
+        text += &format!(
+            "bed load      {rate} kg/(m s); 95 % interval from closures and the scatter of measurements: {interval}\n"
+        );
+        text += &format!("              q* = {dimensionless} ({own_interval})\n");
+        if let Some(width) = flume.width {
+            let (rate, interval) = both(unit * width);
+            text += &format!("in the flume  {rate} kg/s ({interval}) over {} m\n", of(width));
+        }
+        let ((steady, all), by_closures) = (own.draws, within(own.by_closures, unit));
+        text += &format!(
+            "closures      95 % interval of {steady} steady layers from {all} draws: {by_closures} kg/(m s)\n"
+        );
     }
-    let ((steady, all), by_closures) = (own.draws, within(own.by_closures, unit));
-    text +=
-        &format!("closures      95 % interval of {steady} steady layers from {all} draws: {by_closures} kg/(m s)\n");
+    if let Some(rate) = by_user {
+        let is_inside = (own.interval.0 * unit..=own.interval.1 * unit).contains(&rate);
+        let place = if is_inside { "inside of" } else { "outside of" };
+        let share = of(own.transport * unit / rate);
+        text +=
+            &format!("yours         {} kg/(m s), {place} the 95 % interval; predicted over yours: {share}\n", of(rate));
+    }
     let measured = own.rates.as_ref().map_or_else(
         || "fewer than ten runs near this Shields number; the scatter of all runs above 0.1 is used".to_owned(),
         |rates| {
@@ -118,10 +136,10 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
         text += &format!("side walls    the bed carries {bed} of ρ g h S (Vanoni & Brooks 1957, smooth walls); ");
         text += &format!("with a smooth bed, {smooth} (Guo & Julien 2005)\n");
     }
-    if own.transport < LEAST_TRANSPORT {
-        text += &format!("no motion     q* is below {LEAST_TRANSPORT}, the threshold of motion; ");
-        text += "smaller values are creep of the regularised friction\n";
-    }
+    let froude_number = own.velocity / (GRAVITY * flume.depth).sqrt();
+    let forms = if froude_number > 1.0 { "antidunes" } else { "ripples and dunes" };
+    text +=
+        &format!("not computed  bed forms (Froude number {}: {forms}), mixed sizes, suspension\n", of(froude_number));
     if own.outside.is_empty() {
         text += "inside the range compared with measurements\n";
     }

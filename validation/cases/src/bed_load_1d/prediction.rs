@@ -90,8 +90,8 @@ impl BedLoadFlume {
         let layer = self.layer(1.0, Closures::default());
         let limit = layer.stream().sliding_slope(&layer.closures);
         if self.grain_density > layer.fluid_density && self.slope >= limit {
-            let rule = format!("below {}, where a bed {BED} grains deep slides", four_digits(limit));
-            let remedy = "reduce it; sliding beds are debris flows";
+            let rule = format!("below {}, where more than {BED} grain diameters of the bed move", four_digits(limit));
+            let remedy = "reduce it or the depth: deeper sheet flow is not modelled";
             return refused("slope", self.slope, &rule, remedy);
         }
         layer.checked()

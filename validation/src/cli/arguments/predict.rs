@@ -89,6 +89,13 @@ pub struct BedLoadArguments {
     /// Number of random draws of the closures.
     #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u16).range(8..=4096))]
     pub draws: u16,
+    /// Measured transport to compare with [kg/(m s)].
+    #[arg(long, value_name = "KG/(M S)", value_parser = rate)]
+    pub measured: Option<f64>,
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    number(text, (1e-9, 1e4), "give it in kg/(m s), by the width of the flume")
 }
 
 fn number(text: &str, (least, most): (f64, f64), remedy: &str) -> Result<f64, String> {
