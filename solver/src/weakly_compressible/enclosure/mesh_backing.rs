@@ -317,4 +317,31 @@ mod tests {
         assert!((piece.volume - 0.75_f64.powi(3) / 6.0).abs() < 0.01, "{}", piece.volume);
         assert!((piece.place - middle - (edges[0] + edges[1] + edges[2]) * (0.5 - 0.75 / 4.0)).norm() < 1e-14);
     }
+
+    /// Volume, and its moments over the height and around the period, behind a zigzag whose ridge is at a place along a period of 8.
+    fn behind_zigzag(ridge: f64) -> [f64; 4] {
+        let corner = |x: f64, y: f64| Vector::<3>::new(x, y, 0.5 * ((x - ridge).rem_euclid(8.0) - 4.0).abs());
+        let facets = [0.0, 4.0].map(|x| {
+            let [a, b, c, d] = [(x, 0.0), (x + 4.0, 0.0), (x + 4.0, 4.0), (x, 4.0)].map(|(x, y)| corner(x, y));
+            [[a, b, c], [a, c, d]]
+        });
+        let walls = [FacetWall::mesh("bed", &facets.concat())];
+        let axes = [AxisBoundary::Periodic { lower: 0.0, upper: 8.0 }, AxisBoundary::Open, AxisBoundary::Open];
+        let mut moments = [0.0; 4];
+        for own in lay(&walls, &Domain { axes }, 1.0, 3).concat() {
+            let angle = std::f64::consts::TAU * (own.position[0] - ridge) / 8.0;
+            let weights = [1.0, own.position[2], libm::cos(angle), libm::sin(angle)];
+            moments.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += own.volume * weight);
+        }
+        moments
+    }
+
+    #[test]
+    fn a_ridge_at_a_period_is_backed_as_one_between() {
+        let [at_the_period, between] = [0.0, 4.0].map(behind_zigzag);
+        for (one, other) in at_the_period.into_iter().zip(between) {
+            assert!((one - other).abs() < 1e-9, "{at_the_period:?}, {between:?}");
+        }
+        assert!(at_the_period[3].abs() < 1e-9 && at_the_period[0] > 8.0, "{at_the_period:?}");
+    }
 }
