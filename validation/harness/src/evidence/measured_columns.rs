@@ -5,11 +5,15 @@ use crate::input::{
     DOCUMENT, FieldError, MeasuredFiles, TableRows, is_uncertainty, name_and_unit, plain_lines, read_text, renamed,
     unit, unnumbered,
 };
-use crate::number::four_digits;
 use crate::output::{FileError, caution};
-use crate::statistics::{Extrapolation, interpolated};
+use crate::statistics::{Extrapolation, interpolated, mean_and_variance};
 use std::collections::BTreeMap;
 use std::path::Path;
+
+/// Name of the number of a row, where nothing was varied.
+const ROW_NUMBER: &str = "row";
+/// Relative difference of values that are the same `[-]`.
+const SAME: f64 = 1e-9;
 
 /// A heading and a row of a file.
 const ROW: &str =
@@ -25,13 +29,13 @@ pub struct WantedColumns<'a> {
     pub over: Option<&'a str>,
     /// Names of the measured quantity, of which any will do; without one the only quantity.
     pub quantity: &'a [&'a str],
-    /// Whether an only quantity of another name will do too, if it is no other column of a gauge.
-    pub is_only: bool,
+    /// Whether it is a series of one gauge over time: an only quantity of another name will do too, if it is no other column of a gauge.
+    pub of_time: bool,
 }
 
-/// Values of the rows that count; all of a column that has no rows.
-fn kept<T: Clone>(values: &[T], counts: &[bool]) -> Vec<T> {
-    values.iter().zip(counts).filter(|(_, counts)| **counts).map(|(value, _)| value.clone()).collect()
+/// Values of the repeats that have one in a row.
+pub fn there(repeats: &[Vec<f64>], row: usize) -> Vec<f64> {
+    repeats.iter().map(|own| own[row]).filter(|value| value.is_finite()).collect()
 }
 
 impl WantedColumns<'_> {
@@ -59,8 +63,8 @@ pub struct MeasuredColumns {
 }
 
 impl MeasuredColumns {
-    /// Reads one or several files of repeats. Those at other values of what was varied are interpolated to the values of the first file that
-    /// all have.
+    /// Reads one or several files of repeats. Those at other values of what was varied are interpolated to the values of the first file, and
+    /// are not a number where they have none.
     ///
     /// # Errors
     /// A file that cannot be read or lacks a column, repeats without common values.
@@ -78,7 +82,7 @@ impl MeasuredColumns {
         };
         let mut whole = read(first)?;
         for path in others {
-            whole.add(read(path)?).map_err(|error| error.in_file(path))?;
+            whole.add(read(path)?, path).map_err(|error| error.in_file(path))?;
         }
         Ok(whole)
     }
@@ -89,7 +93,7 @@ impl MeasuredColumns {
     /// A unit of another kind.
     pub fn means(&self, over: &str, measured: &str) -> Result<Vec<(f64, f64)>, FieldError> {
         let repeats: Vec<Vec<f64>> = self.repeats.iter().map(|own| in_unit(own, measured)).collect::<Result<_, _>>()?;
-        let mean = |row: usize| repeats.iter().map(|own| own[row]).sum::<f64>() / repeats.len() as f64;
+        let mean = |row: usize| mean_and_variance(there(&repeats, row).into_iter()).0;
         Ok(in_unit(&self.over, over)?.into_iter().enumerate().map(|(row, x)| (x, mean(row))).collect())
     }
 }
@@ -105,7 +109,11 @@ fn parse(
     let wrong = |defect: &str, missing: Option<&&str>| {
         let (defect, remedy) = missing.map_or((defect.to_owned(), format!("{ROW}, or {NAMED}")), |name| {
             let name = name.rsplit_once(": ").map_or(*name, |(_, own)| own);
-            let columns = format!("columns = {{ \"{name}\" = \"HEADING [UNIT]\" }}");
+            if table.headings().iter().any(|own| own.trim() == name) {
+                return (format!("no unit of `{name}` among "), format!("write it in brackets, such as `{name} [cm]`"));
+            }
+            let time = if wanted.of_time { "t = \"TIME [s]\", " } else { "" };
+            let columns = format!("columns = {{ {time}\"{name}\" = \"HEADING [UNIT]\" }}");
             (format!("no column `{name}` among "), format!("rename one, or give {{ files = […], {columns} }}"))
         });
         FieldError::finding("columns", format!("{defect}{listed}"), &remedy)
@@ -133,15 +141,17 @@ fn parse(
     let (stated, values): (Vec<&NumberColumn>, Vec<_>) = columns.iter().partition(is_stated);
     let is_over = |own: &&&NumberColumn| wanted.over.is_none_or(|name| own.name == name);
     // own headings may stand in any order
-    let is_time =
-        |own: &&&NumberColumn| names.is_some() && wanted.over.is_none() && ["t", "time"].contains(&own.name.as_str());
-    let over = values.iter().find(is_time).or_else(|| values.iter().find(is_over));
+    let is_time = |own: &&&NumberColumn| {
+        let is_named = names.is_some() && wanted.over.is_none() && ["t", "time"].contains(&own.name.as_str());
+        is_named || (wanted.of_time && unit::factor(&own.unit, "s").is_some())
+    };
+    let over = values.iter().find(is_time).or_else(|| values.iter().find(is_over).filter(|_| !wanted.of_time));
     let over = *over.ok_or_else(|| wrong("no column of what was varied, such as `t`, among ", wanted.over.as_ref()))?;
     let has_rows_alone = wanted.over.is_none() && is_meant(over);
     let others = || values.iter().copied().filter(|own| has_rows_alone || !std::ptr::eq(*own, over));
     let is_other = |own: &NumberColumn| [": ", " along "].iter().any(|mark| own.name.contains(mark));
     let is_alone = |own: &NumberColumn| others().all(|other| unnumbered(&other.name) == unnumbered(&own.name));
-    let only = others().next().filter(|own| wanted.is_only && !is_other(own) && is_alone(own));
+    let only = others().next().filter(|own| wanted.of_time && !is_other(own) && is_alone(own));
     let named = others().find(|own| wanted.fits(own)).or(only);
     let first = named.ok_or_else(|| wrong("no measured quantity among ", wanted.quantity.first()))?;
     let is_repeat = |own: &&NumberColumn| unnumbered(&own.name) == unnumbered(&first.name);
@@ -154,7 +164,7 @@ fn parse(
     let behind = columns.iter().skip_while(|own| !is_repeat(own)).find(is_stated);
     let place = table.headings().iter().position(|heading| *heading == "variant");
     let rows = (1..=table.rows.len()).map(|row| row as f64).collect();
-    let number = NumberColumn { name: "row".to_owned(), unit: "-".to_owned(), values: rows };
+    let number = NumberColumn { name: ROW_NUMBER.to_owned(), unit: "-".to_owned(), values: rows };
     Ok(MeasuredColumns {
         text: text.to_owned(),
         over: if has_rows_alone { number } else { over.clone() },
@@ -182,35 +192,39 @@ pub fn heading(column: &NumberColumn) -> String {
 }
 
 impl MeasuredColumns {
-    /// Adds the repeats of another file.
-    fn add(&mut self, mut other: Self) -> Result<(), FieldError> {
+    /// Adds the repeats of another file, and what its comments say.
+    fn add(&mut self, mut other: Self, path: &Path) -> Result<(), FieldError> {
         let over = in_unit(&other.over, &self.over.unit)?;
-        let is_same = |(own, other): (&f64, &f64)| (own - other).abs() <= 1e-9 * own.abs().max(other.abs());
-        if over.len() != self.over.values.len() || !self.over.values.iter().zip(&over).all(is_same) {
-            let all = self.over.values.clone();
-            let [low, high] = [f64::min, f64::max].map(|end| over.iter().copied().reduce(end).unwrap_or(f64::NAN));
-            let is_common: Vec<bool> = all.iter().map(|own| (low..=high).contains(own)).collect();
-            let common: Vec<f64> = kept(&all, &is_common);
-            if common.is_empty() {
-                let rule =
-                    format!("with values between {} and {}", four_digits(all[0]), four_digits(all[all.len() - 1]));
-                let value = format!("between {} and {}", four_digits(low), four_digits(high));
-                return Err(FieldError::new(&self.over.name, value, &rule, "leave the repeat out"));
+        let is_same = |(own, other): (&f64, &f64)| (own - other).abs() <= SAME * own.abs().max(other.abs());
+        let is_equal = over.len() == self.over.values.len() && self.over.values.iter().zip(&over).all(is_same);
+        if !is_equal || other.variants != self.variants {
+            let ends = [f64::min, f64::max].map(|end| over.iter().copied().reduce(end).unwrap_or(f64::NAN));
+            let room = SAME * (ends[1] - ends[0]).max(ends[1].abs());
+            let place = |x: &f64| (ends[0] - room..=ends[1] + room).contains(x).then(|| x.clamp(ends[0], ends[1]));
+            let places: Vec<Option<f64>> = self.over.values.iter().map(place).collect();
+            let number = places.iter().flatten().count();
+            // variants and rows of single values are no axis
+            if number == 0 || self.over.name == ROW_NUMBER || !self.variants.is_empty() || !other.variants.is_empty() {
+                let rule = format!("in rows of the same {} as in the first file", self.over.name);
+                let remedy = "leave the repeat out, or complete it";
+                return Err(FieldError::new(&self.over.name, format!("{over:?}"), &rule, remedy));
             }
-            for own in std::iter::once(&mut self.over).chain(&mut self.repeats).chain(&mut self.stated) {
-                own.values = kept(&own.values, &is_common);
-            }
-            self.variants = kept(&self.variants, &is_common);
             for own in other.repeats.iter_mut().chain(&mut other.stated) {
                 let mut points: Vec<(f64, f64)> = over.iter().copied().zip(own.values.iter().copied()).collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 let nothing = (Extrapolation::Nothing, Extrapolation::Nothing);
-                own.values = common.iter().map(|x| interpolated(&points, *x, nothing).unwrap_or(f64::NAN)).collect();
+                let at = |place: &Option<f64>| place.and_then(|x| interpolated(&points, x, nothing));
+                own.values = places.iter().map(|place| at(place).unwrap_or(f64::NAN)).collect();
             }
-            let (name, rows) = (&self.repeats[0].name, all.len());
-            let told = format!("{} of {rows} values of `{}`", common.len(), self.over.name);
-            caution(&format!("repeats of `{name}` at other values are interpolated to {told} of the first file"));
+            let (name, file, rows) = (&self.over.name, path.display(), places.len());
+            let missing = match rows - number {
+                0 => String::new(),
+                missing => format!("; it has none at {missing} of {rows}, which count with one repeat less"),
+            };
+            caution(&format!("{file}: interpolated to the values of `{name}` of the first file{missing}"));
         }
+        let comments = other.text.lines().filter(|line| line.trim_start().starts_with('#'));
+        self.text.extend(comments.flat_map(|line| ["\n", line]));
         self.repeats.extend(other.repeats);
         self.stated.extend(other.stated);
         Ok(())

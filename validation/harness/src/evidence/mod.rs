@@ -18,7 +18,7 @@ mod validation_set;
 pub use held_out::{HeldOutDatum, HeldOutJudgement};
 pub use input_range::{Basis, InputRange, Spread};
 pub use measured::{MeasuredData, Metadata, NumberColumn, ReferenceColumn, ReferenceKind};
-pub use measured_columns::{MeasuredColumns, WantedColumns, heading, in_unit};
+pub use measured_columns::{MeasuredColumns, WantedColumns, heading, in_unit, there};
 pub use papers::{Element, MetricName, PAPERS, Paper, Printed, RunName};
 pub use sensitivity_table::{RangeEnd, SensitivityRow, sensitivity_table, sensitivity_text};
 pub use shipped::{read_shipped, shipped_table, shipped_tables};

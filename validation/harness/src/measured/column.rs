@@ -28,8 +28,9 @@ impl ColumnSource {
     /// `"x [cm]"` for a column, `{ value = 0.25, unit = "cm^2" }` for what is the same for all.
     pub fn parse(value: &toml::Value, field: &str) -> Result<Self, FieldError> {
         let own = value.as_str().unwrap_or("x");
+        let unit = if field.ends_with("time") { "ms" } else { "cm" };
         let remedy =
-            format!("write \"{own} [cm]\" for a column, or {{ value = 0.25, unit = \"cm^2\" }} for a constant");
+            format!("write \"{own} [{unit}]\" for a column, or {{ value = 0.25, unit = \"cm^2\" }} for a constant");
         let wrong = |text: String| FieldError::new(field, text, "a heading with its unit in brackets", &remedy);
         match value {
             toml::Value::String(text) => {

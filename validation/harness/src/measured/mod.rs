@@ -188,9 +188,10 @@ impl Measurements {
             if one_of_several { variant.and("curve", text_of_variant(&curve.label).as_str()) } else { variant };
         let (compared, all) = (curve.compared, self.measured.values.len());
         let left_out = || format!("`{}` has a value at {compared} of {all} measurements", curve.label);
-        let remarks = (compared < all).then(left_out).into_iter().chain(curve.coarse.clone());
+        let remarks =
+            (compared < all).then(left_out).into_iter().chain(curve.short.clone()).chain(curve.coarse.clone());
         let confidence = self.said.confidence.unwrap_or(Confidence::Low);
-        let is_judged = curve.is_whole || self.said.limit.is_none();
+        let is_judged = curve.short.is_none() || self.said.limit.is_none();
         let residual = if is_judged { curve.residual } else { f64::NAN };
         let metric = Metric::observed("overlay_residual", &variant, residual, "-")
             .against(None, &self.source(), confidence)

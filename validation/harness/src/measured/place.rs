@@ -38,8 +38,8 @@ pub(super) struct CurveResidual {
     pub(super) by_resolution: f64,
     /// Measurements at which it has one.
     pub(super) compared: usize,
-    /// Whether it reaches from the first measurement to the last.
-    pub(super) is_whole: bool,
+    /// Remark on a curve over time that does not reach from the first measurement to the last.
+    pub(super) short: Option<String>,
     /// Remark on uncertainties that are smaller than the curve's resolution.
     pub(super) coarse: Option<String>,
 }
@@ -141,8 +141,13 @@ impl MatchingPanel {
             let coarse = coarse_in_words(&points, parted(&panel.y.label).1);
             let label = series.label.clone();
             let over: Vec<f64> = series.points.iter().map(|point| self.turned(*point).0).collect();
-            let is_whole = reaches(&over, measurements.abscissa.values.iter().map(|x| x * self.factors.0));
-            Some(CurveResidual { label, residual, by_resolution, compared: points.len(), is_whole, coarse })
+            let places: Vec<f64> = measurements.abscissa.values.iter().map(|x| x * self.factors.0).collect();
+            let of_time = unit::factor(&measurements.abscissa.unit, "s").is_some();
+            let short = (of_time && !reaches(&over, &places)).then(|| {
+                let [own, asked] = [over, places].map(|values| range(values.into_iter().filter(|x| x.is_finite())));
+                format!("it covers {own}, but the measurements {asked}")
+            });
+            Some(CurveResidual { label, residual, by_resolution, compared: points.len(), short, coarse })
         };
         let curves: Vec<CurveResidual> = series.iter().filter_map(residual).collect();
         if curves.is_empty() {
@@ -188,12 +193,12 @@ impl MatchingPanel {
     }
 }
 
-/// Whether abscissas of a curve reach from the first to the last of some places; the last row may stand just before the end of a run.
-fn reaches(over: &[f64], mut places: impl Iterator<Item = f64>) -> bool {
-    let end = |end: fn(f64, f64) -> f64| over.iter().copied().filter(|x| x.is_finite()).reduce(end);
-    let (Some(first), Some(last)) = (end(f64::min), end(f64::max)) else { return false };
-    let row = 0.1 * (last - first) / over.len() as f64;
-    places.all(|x| (first - row..=last + row).contains(&x))
+/// Whether abscissas of a curve reach from the first to the last of some places; its ends may stand a row beside those of a run.
+fn reaches(over: &[f64], places: &[f64]) -> bool {
+    let mut over: Vec<f64> = over.iter().copied().filter(|x| x.is_finite()).collect();
+    over.sort_by(f64::total_cmp);
+    let ([first, second, ..], [.., before, last]) = (&over[..], &over[..]) else { return false };
+    places.iter().all(|x| (2.0 * first - second..=2.0 * last - before).contains(x))
 }
 
 /// Whether a series was drawn by a simulation.

@@ -2,7 +2,7 @@
 
 use super::{Measurements, Said, WantedColumns};
 use crate::case::ParameterError;
-use crate::evidence::{MeasuredColumns, NumberColumn, heading, in_unit};
+use crate::evidence::{MeasuredColumns, NumberColumn, heading, in_unit, there};
 use crate::input::{FieldError, MeasuredFiles, unnumbered};
 use crate::metric::Confidence;
 use crate::statistics::mean_and_variance;
@@ -36,11 +36,14 @@ fn measurements(all: MeasuredColumns, path: &Path, is_as_it_stands: bool) -> Res
             return Err(FieldError::new(&own.name, value, "positive", remedy));
         }
     }
-    let spread: Vec<(f64, f64)> = (0..rows).map(|row| mean_and_variance(repeats.iter().map(|own| own[row]))).collect();
-    let pooled = spread.iter().map(|row| row.1).sum::<f64>() / rows as f64;
+    let own: Vec<Vec<f64>> = (0..rows).map(|row| there(&repeats, row)).collect();
+    let spread: Vec<(f64, f64)> = own.iter().map(|row| mean_and_variance(row.iter().copied())).collect();
+    // a row that one repeat alone has scatters as the others do
+    let known: Vec<f64> = spread.iter().zip(&own).filter(|(_, row)| row.len() > 1).map(|(row, _)| row.1).collect();
+    let pooled = known.iter().sum::<f64>() / known.len().max(1) as f64;
     let uncertainty = |row: usize| {
         let stated = stated.iter().map(|own| own[row]).fold(0.0, f64::max);
-        libm::hypot((spread[row].1.max(pooled) / repeats.len() as f64).sqrt(), stated)
+        libm::hypot((spread[row].1.max(pooled) / own[row].len() as f64).sqrt(), stated)
     };
     let uncertainty: Vec<f64> = (0..rows).map(uncertainty).collect();
     if uncertainty.contains(&0.0) {
@@ -49,15 +52,29 @@ fn measurements(all: MeasuredColumns, path: &Path, is_as_it_stands: bool) -> Res
         let remedy = format!("add a column `uncertainty [{}]`, or give repeats: {REPEATS}", first.unit);
         return Err(FieldError::finding("columns", defect, &remedy));
     }
+    let measured = NumberColumn {
+        name: unnumbered(&first.name).to_owned(),
+        unit: first.unit.clone(),
+        values: spread.iter().map(|row| row.0).collect(),
+    };
+    let is_complete = own.iter().all(|row| row.len() == repeats.len());
+    let text = match (is_as_it_stands, is_complete) {
+        (true, _) => all.text.clone(),
+        (_, true) => all.rewritten(),
+        // what a repeat lacks cannot be written
+        _ => {
+            let stated =
+                NumberColumn { name: "uncertainty".to_owned(), values: uncertainty.clone(), ..measured.clone() };
+            let (over, text) = (all.over.clone(), all.text.clone());
+            let repeats = vec![measured.clone()];
+            MeasuredColumns { text, over, repeats, stated: vec![stated], variants: Vec::new() }.rewritten()
+        }
+    };
     Ok(Measurements {
         path: path.to_owned(),
         said: said(&all.text)?,
-        text: if is_as_it_stands { all.text.clone() } else { all.rewritten() },
-        measured: NumberColumn {
-            name: unnumbered(&first.name).to_owned(),
-            unit: first.unit.clone(),
-            values: spread.iter().map(|row| row.0).collect(),
-        },
+        text,
+        measured,
         uncertainty,
         repeats: repeats.len(),
         files: 1,
@@ -79,15 +96,18 @@ fn said(text: &str) -> Result<Said, FieldError> {
         let wrong = |rule: &str, remedy: &str| Err(FieldError::new(&format!("# {key}"), &value, rule, remedy));
         match key.as_str() {
             "limit" => match value.parse::<f64>() {
-                Ok(limit) if limit > 0.0 && limit.is_finite() => said.limit = Some(limit),
+                // of several files the strictest
+                Ok(limit) if limit > 0.0 && limit.is_finite() => {
+                    said.limit = Some(said.limit.map_or(limit, |other| other.min(limit)));
+                }
                 _ => return wrong("a positive number", "give it in standard uncertainties, such as 2"),
             },
-            "figure" => said.figure = Some(value),
-            "panel" => said.panel = Some(value),
-            "curve" => said.curve = Some(value),
-            "source" => said.source = Some(value),
+            "figure" => said.figure = said.figure.or(Some(value)),
+            "panel" => said.panel = said.panel.or(Some(value)),
+            "curve" => said.curve = said.curve.or(Some(value)),
+            "source" => said.source = said.source.or(Some(value)),
             "confidence" => match Confidence::stated(&value) {
-                Some(confidence) => said.confidence = Some(confidence),
+                Some(confidence) => said.confidence = said.confidence.max(Some(confidence)),
                 None => return wrong(&format!("one of {}", Confidence::STATED), "without one it is low"),
             },
             _ => {

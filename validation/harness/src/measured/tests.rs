@@ -70,7 +70,7 @@ fn points_with_bars_go_into_the_panel_with_their_axes_and_units_are_converted() 
 #[test]
 fn a_residual_is_the_root_mean_square_in_uncertainties_and_a_stated_limit_judges() {
     // 2 and 4 uncertainties above the curve: √((4 + 16)/2) = √10
-    let text = |limit: f64| format!("# limit: {limit}\nt [s],front [m],σ [m]\n0.1,0.22,0.01\n0.2,0.44,0.01\n7,1,1\n");
+    let text = |limit: f64| format!("# limit: {limit}\nt [s],front [m],σ [m]\n0.1,0.22,0.01\n0.2,0.44,0.01\n");
     for (limit, verdict) in [(3.0, Verdict::Fail), (3.2, Verdict::Pass)] {
         let mut result = result();
         read(&text(limit)).expect("a table").draw(&mut result).expect("drawn");
@@ -96,7 +96,7 @@ fn a_resolution_that_counts_in_place_of_uncertainties_is_told() {
     assert_eq!(
         metric.remark.as_deref(),
         Some(
-            "`sand` has a value at 3 of 4 measurements; half a row of particles, which moves the value by up to 0.05 m, counts in place of the uncertainty at \
+            "`sand` has a value at 3 of 4 measurements; it covers 0 … 1, but the measurements 0.1 … 7; half a row of particles, which moves the value by up to 0.05 m, counts in place of the uncertainty at \
              2 of 3 measurements"
         )
     );
@@ -319,12 +319,12 @@ fn repeats_are_a_mean_with_the_scatter_of_the_mean() {
     assert!(equal.starts_with("0.csv: `columns`: u [m] is equal in all repeats; add a column"), "{equal}");
     let apart =
         read_of(&["t [s],u [m]\n1,1\n", "t [s],u [m]\n2,1\n"], "", WantedColumns::default()).expect_err("other times");
-    assert!(apart.contains("but must be the values of the first file"), "{apart}");
+    assert!(apart.contains("but must be in rows of the same t as in the first file"), "{apart}");
 }
 
 #[test]
 fn columns_are_found_by_their_names_or_by_those_that_a_plan_gives() {
-    let wanted = WantedColumns { over: Some("t"), quantity: &["tip: front"], is_only: false };
+    let wanted = WantedColumns { over: Some("t"), quantity: &["tip: front"], of_time: false };
     let text =
         "# time depth\nnumber,depth [m],t [ms],uncertainty of depth [m],front [cm],sigma [mm]\n1,5,100,2,10,30\n";
     let own = read_of(&[text], "", wanted).expect("by heading");
@@ -386,4 +386,44 @@ fn a_column_may_have_the_name_of_a_gauge_in_the_tables_of_results() {
     assert!(tip.metrics[0].value < 1e-9);
     let told = of("Fy").expect_err("no such column");
     assert!(told.contains("force [N/m] or load: force along x [N/m] or load: force along y [N/m]"), "{told}");
+}
+
+/// The third repeat is shorter and has times of its own; its comments count.
+#[test]
+fn repeats_count_where_they_have_a_value_and_all_their_comments_do() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("writable");
+        folder.path().join(name)
+    };
+    let files = vec![
+        write("a.csv", "# limit: 5\nt [s],front [m]\n0.1,0.30\n0.2,0.50\n0.3,0.70\n"),
+        write("b.csv", "# limit: 2\nt [ms],front [cm]\n100,32\n200,52\n300,72\n"),
+        write("c.csv", "# confidence: unverified\nt [s],front [m]\n0.05,0.24\n0.25,0.64\n"),
+    ];
+    let read =
+        |files: &[PathBuf]| Measurements::read(&MeasuredFiles::Repeats(files.to_vec()), WantedColumns::default());
+    let own = read(&files).expect("repeats");
+    assert_eq!((own.said.limit, own.said.confidence), (Some(2.0), Some(Confidence::Unverified)));
+    let points = own.in_units("s", "m").expect("the same units");
+    let expected = [(0.1, 0.32), (0.2, 0.52), (0.3, 0.71)];
+    for ([t, front, _], (at, mean)) in points.iter().zip(expected) {
+        assert!((t - at).abs() < 1e-12 && (front - mean).abs() < 1e-12, "{points:?}");
+    }
+    // variances 4e-4, 4e-4 and of two repeats 2e-4, below the mean of all
+    let pooled: f64 = (4e-4 + 4e-4 + 2e-4) / 3.0;
+    assert!((points[0][2] - (4e-4_f64 / 3.0).sqrt()).abs() < 1e-12, "{points:?}");
+    assert!((points[2][2] - (pooled / 2.0).sqrt()).abs() < 1e-12, "{points:?}");
+    // the kept copy gives the same again
+    let again = read(&[write("kept.csv", &own.text)]).expect("a table");
+    assert_eq!(again.in_units("s", "m"), Ok(points));
+    let apart = write("d.csv", "t [s],front [m]\n7,1\n8,1\n");
+    let refused = read(&[files[0].clone(), apart]).expect_err("refused").to_string();
+    assert!(refused.contains("d.csv: `t` is [7.0, 8.0], but must be in rows of the same t"), "{refused}");
+    let variants = ["variant,run_out [m]\nA,1\nB,2\nC,3\n", "variant,run_out [m]\nA,1\nC,3\n"];
+    let variants: Vec<PathBuf> =
+        ["e.csv", "f.csv"].iter().zip(variants).map(|(name, text)| write(name, text)).collect();
+    let wanted = WantedColumns { quantity: &["run_out"], ..WantedColumns::default() };
+    let mixed = Measurements::read(&MeasuredFiles::Repeats(variants), wanted).expect_err("refused").to_string();
+    assert!(mixed.contains("but must be in rows of the same row as in the first file"), "{mixed}");
 }

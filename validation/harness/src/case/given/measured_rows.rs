@@ -42,7 +42,7 @@ pub(in crate::case) fn read_beside(fields: &mut Table, case: &str, path: &Path) 
         };
         let unit = units[usize::from(case == "scene-space")];
         let both = format!("{gauge}: {column}");
-        let wanted = WantedColumns { quantity: &[gauge, column, &both], is_only: true, ..Default::default() };
+        let wanted = WantedColumns { quantity: &[gauge, column, &both], of_time: true, ..Default::default() };
         let beside = files.beside(path.parent().unwrap_or(Path::new("")));
         let read = MeasuredColumns::read::<ParameterError>(&beside, wanted)?;
         let points = read.means("s", unit).map_err(|error| error.in_file(&beside.files()[0]))?;
@@ -100,14 +100,19 @@ mod tests {
         let other = "t [s],toe [m]\n0.3,0.3\n0.15,0.15\n0.05,0.05\n";
         assert_eq!(
             read(&["t [s],toe [cm]\n0.1,20\n0.2,30\n0.4,50\n", other]).as_deref(),
-            Ok("[[0.1, 0.15], [0.2, 0.25]]")
+            Ok("[[0.1, 0.15000000000000002], [0.2, 0.25], [0.4, 0.5]]")
         );
         assert_eq!(read(&["t [ms],toe: front [cm],other [m]\n1000,200,7\n"]).as_deref(), Ok("[[1.0, 2.0]]"));
         for (texts, said) in [
             (
                 &["t [s],toe [cm]\n1,20\n", other][..],
-                "b.csv: `t` is between 0.05 and 0.3, but must be with values between 1 and 1;",
+                "b.csv: `t` is [0.3, 0.15, 0.05], but must be in rows of the same t as in the first file;",
             ),
+            (
+                &["t [s],toe\n0,1\n"],
+                "a.csv: `columns`: no unit of `toe` among t [s], toe; write it in brackets, such as `toe [cm]`",
+            ),
+            (&["toe [cm]\n1\n"], "a.csv: `columns`: no column of what was varied, such as `t`, among toe [cm];"),
             (
                 &["t [s],toe: front at half a row more [m]\n0,1\n"],
                 "a.csv: `columns`: no column `toe` among t [s], toe: front at",
