@@ -56,12 +56,12 @@ pub(super) fn averaged<M: Evaluate>(
     // edges of gaps are no runs of the model here
     region.profiles.iter_mut().for_each(|profile| profile.gaps.clear());
     region.draw();
-    for k in 0..minimum.point.len() {
-        let [below, above] = [0, 1].map(|side| contradicted(&region, k, side, &history));
-        let profile = &mut region.profiles[k];
-        (profile.open_below, profile.open_above) = (profile.open_below && !below, profile.open_above && !above);
+    let of_sides = |k: usize| [0, 1].map(|side| !contradicted(&region, k, side, &history));
+    let held: Vec<[bool; 2]> = (0..minimum.point.len()).map(of_sides).collect();
+    for (profile, [below, above]) in region.profiles.iter_mut().zip(&held) {
+        profile.open_below &= below;
+        profile.open_above &= above;
     }
-    let holds = |k: usize, side: usize| !contradicted(&region, k, side, &history);
     let end = |point: &Vec<f64>, open: bool, holds: bool| IntervalEnd {
         settled: holds && emulator.supports(point),
         point: point.clone(),
@@ -72,10 +72,10 @@ pub(super) fn averaged<M: Evaluate>(
     let ends: Vec<[IntervalEnd; 2]> = region
         .profiles
         .iter()
-        .enumerate()
-        .map(|(k, profile)| {
+        .zip(&held)
+        .map(|(profile, held)| {
             let [below, above] = &profile.ends;
-            [end(below, profile.open_below, holds(k, 0)), end(above, profile.open_above, holds(k, 1))]
+            [end(below, profile.open_below, held[0]), end(above, profile.open_above, held[1])]
         })
         .collect();
     let joint_settled = ends.iter().flatten().all(|end| end.settled);
@@ -84,17 +84,21 @@ pub(super) fn averaged<M: Evaluate>(
     Ok((search, Explored { emulator, region, ends, joint_settled, history, lower: false }))
 }
 
-/// Whether the runs in the outer half of an interval, on its lower or upper side, lie above their smooth fit by more in the mean than what
-/// bounds the interval: their fit is then no guide to its end.
+/// Whether the runs in the outer half of an interval, on its lower or upper side, lie above their smooth fit by more than those about the
+/// best point do, and that by more than what bounds the interval: their fit is then no guide to its end.
 fn contradicted(region: &Region, k: usize, side: usize, history: &[Evaluated]) -> bool {
     let (best, end) = (region.minimum.point[k], region.profiles[k].ends[side][k]);
-    let is_outer = |evaluated: &&Evaluated| {
-        let share = (evaluated.point[k] - best) / (end - best);
-        (0.5..=1.0).contains(&share) && region.rise(&evaluated.point) <= region.limit
+    let excess = |from: f64, to: f64| {
+        let is_there = |evaluated: &&Evaluated| {
+            let share = (evaluated.point[k] - best) / (end - best);
+            (from..=to).contains(&share) && region.rise(&evaluated.point) <= region.limit
+        };
+        let miss = |own: &Evaluated| Some(own.chi_squared? - region.emulator.chi_squared(&own.point));
+        let misses: Vec<f64> = history.iter().filter(is_there).filter_map(miss).collect();
+        misses.iter().sum::<f64>() / misses.len() as f64
     };
-    let miss = |evaluated: &Evaluated| Some(evaluated.chi_squared? - region.emulator.chi_squared(&evaluated.point));
-    let misses: Vec<f64> = history.iter().filter(is_outer).filter_map(miss).collect();
-    misses.iter().sum::<f64>() / misses.len() as f64 > region.limit
+    let inner = excess(-0.5, 0.5);
+    excess(0.5, 1.0) - if inner.is_finite() { inner } else { 0.0 } > region.limit
 }
 
 /// Polynomials through all points in and about the region, equally faithful to those within a step of a difference.

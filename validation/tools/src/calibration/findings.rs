@@ -8,6 +8,8 @@ use crate::inference::search::Evaluated;
 use crate::inference::{Answer, Explored, ParameterLabel, Region, SerialCorrelation, Termination, UNLIKELY, assess};
 use crate::number::{four_digits, short_digits};
 
+/// Factor of wider intervals that is told `[-]`.
+const WIDER: f64 = 1.05;
 /// Distance from a bound, as a share of the range, that is none.
 const AT_BOUND: f64 = 1e-6;
 
@@ -20,7 +22,7 @@ pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison
         }
         Some(explored) => {
             findings.extend(of_fit(plan.parameters.len(), explored.region.p_value, fit));
-            findings.extend(answer.correlation.map(correlated));
+            findings.extend(answer.correlation.filter(|own| own.factor > WIDER).map(correlated));
             findings.extend(stepped(plan, answer, explored, fit));
             findings.extend(rough(plan, answer, &explored.region));
             findings.extend(of_region(plan, explored));
@@ -170,12 +172,16 @@ fn of_region(plan: &CalibrationPlan, explored: &Explored) -> Vec<String> {
                 ));
             }
             if !end.settled {
-                let (open, given) = match plan.repeats.count {
-                    1 => ("the model has not confirmed", ", and the wider of what it and its emulator say is given"),
-                    _ => ("too few runs lie about, or they disagree with their smooth fit at,", ""),
+                let (open, given, or) = match plan.repeats.count {
+                    1 => {
+                        ("the model has not confirmed", ", and the wider of what it and its emulator say is given", "")
+                    }
+                    _ => {
+                        ("too few runs lie about, or they lie above their smooth fit at,", "", ", or narrow the bounds")
+                    }
                 };
                 findings.push(format!(
-                    "interval not settled: {open} the {word} end of `{}`{given}; allow more `region_evaluations`",
+                    "interval not settled: {open} the {word} end of `{}`{given}; allow more `region_evaluations`{or}",
                     parameter.name
                 ));
             } else if end.fails {

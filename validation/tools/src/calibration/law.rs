@@ -44,7 +44,8 @@ impl DataBlock {
         let [diameter, density] =
             ["grain_diameter", "grain_density"].map(|name| fields.get(name).and_then(number_in).unwrap_or(1.0));
         let law: Rheology = Value::Table(fields).try_into().map_err(|error: toml::de::Error| {
-            let (part, remedy) = match error.message().contains("variant") {
+            let unknown = format!("unknown variant `{}`", self.request.case);
+            let (part, remedy) = match error.message().contains(&unknown) {
                 true => ("law", "give one of these names"),
                 false => ("with", "correct `with`, or the paths"),
             };

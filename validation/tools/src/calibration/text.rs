@@ -92,7 +92,7 @@ pub(super) struct CalibrationText {
     /// Search method; `trust-region`, if it is left out
     #[schemars(extend("enum" = ["trust-region", "posterior", "design"]), with = "Option<String>")]
     method: Option<Method>,
-    /// Most evaluations of the search for the best point, 40 if it is left out
+    /// Most evaluations of the search for the best point, 40 if it is left out, of laws alone 400
     evaluations: Option<usize>,
     /// Seed of the starting points
     seed: Option<u64>,
@@ -103,7 +103,7 @@ pub(super) struct CalibrationText {
     /// Trajectories of Morris' screening
     #[serde(default)]
     trajectories: usize,
-    /// Most evaluations for intervals and joint region, anew where a lower point turns up; 16 per parameter if it is left out
+    /// Most evaluations for intervals and joint region, anew where a lower point turns up; 16 per parameter if it is left out, of laws alone 160
     region_evaluations: Option<usize>,
     /// Starting points; 2 + 2 per parameter, if it is left out
     starts: Option<usize>,
