@@ -169,7 +169,9 @@ impl PredictionPlan {
         };
         result.metrics.iter().find(is_meant).ok_or_else(|| {
             let of = if run < 2 { "the best law".to_owned() } else { format!("draw {}", run - 1) };
-            let reason = format!("no `{name}` of {of}: it diverged or moves at the end; look at it with `bagnold run`");
+            let reason = format!(
+                "no `{name}` of {of}: it diverged or moves at the end, as on a slope steeper than its friction; give a gentler one by --set"
+            );
             ToolError::at(Path::new(&self.case), reason)
         })
     }

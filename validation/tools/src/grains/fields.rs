@@ -67,14 +67,14 @@ impl RunFields {
         Ok(())
     }
 
-    /// Refuses a layer on a slope that is fastest at its lower end: its height or its velocity has the wrong sign.
+    /// Refuses a layer on a slope that is fastest at its lower end: its height has the wrong sign.
     pub(super) fn check_direction(&self, run: &GrainRun) -> Result<(), FieldError> {
-        if run.slope_angle.is_none() || self.core[2].0 > 0.0 {
+        if run.slope_angle.is_none() || !(self.core[2].0 * self.core[1].0 < 0.0) {
             return Ok(());
         }
-        let defect = "the velocity down the slope falls with the height";
-        let remedy = "let `y` be the height above the bed, and `vx` the velocity down the slope";
-        Err(FieldError::finding("particles.columns.vx", defect, remedy))
+        let defect = "the layer is fastest at its lower end";
+        let remedy = "let `y` be the height above the bed";
+        Err(FieldError::finding("particles.columns.y", defect, remedy))
     }
 }
 

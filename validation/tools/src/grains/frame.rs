@@ -48,6 +48,16 @@ impl<'f> Grains<'f> {
         values
     }
 
+    /// Radii on both sides of a gap between two distributions, of which each has a twentieth of the grains at least.
+    fn gap(&self) -> Option<[f64; 2]> {
+        let mut radii = self.all("radius");
+        radii.sort_by(f64::total_cmp);
+        let few = radii.len() / 20 + 1;
+        let inner = few.saturating_sub(1)..(radii.len() + 1).saturating_sub(few).max(few);
+        let pairs = radii.get(inner).unwrap_or_default().windows(2);
+        pairs.map(|pair| [pair[0], pair[1]]).find(|pair| pair[0] > 0.0 && pair[1] > GAP * pair[0])
+    }
+
     /// Number of grains that move exactly as the most others do.
     pub(super) fn alike(&self) -> usize {
         let mut velocities: Vec<[u64; 2]> =
@@ -72,7 +82,7 @@ impl<'f> Grains<'f> {
         for (name, most) in [("kind", usize::MAX), ("density", usize::MAX), ("radius", MOST_KINDS)] {
             let values = self.distinct(name);
             let is_chosen = name == "kind" && !run.kinds.is_empty() || name == "radius" && run.grain_diameter.is_some();
-            let gap = values.windows(2).find(|pair| name == "radius" && pair[1] > GAP * pair[0]);
+            let gap = self.gap().filter(|_| name == "radius");
             if ((2..=most).contains(&values.len()) || gap.is_some()) && !is_chosen {
                 let listed: Vec<String> = values.iter().take(MOST_KINDS).map(f64::to_string).collect();
                 let remedy = "choose one by `kinds`, or give `grain_diameter` for mixed sizes";

@@ -86,10 +86,10 @@ fn average_run(plan: &GrainPlan, place: usize) -> Result<RunFields, ToolError> {
     let windows: Vec<Window> = (0..WINDOWS).map(|k| Window::merged(&frames[end(k)..end(k + 1)])).collect();
     let fields = run.fields(place, &windows, [diameter, density], diameter / BINS);
     fields.check_balance().map_err(at_run)?;
-    fields.check_direction(run).map_err(at_run)?;
     let limit = plan.steady_within.unwrap_or(0.1);
     if fields.unsteadiness <= limit {
-        let is_repeated = frames.windows(2).any(|pair| pair[0].bins == pair[1].bins);
+        fields.check_direction(run).map_err(at_run)?;
+        let is_repeated = (1..frames.len()).any(|k| frames[..k].iter().any(|other| other.bins == frames[k].bins));
         let repeated =
             || FieldError::finding("particles.files", "two frames hold the same grains", "dump at several times");
         return if is_repeated { Err(at_run(repeated())) } else { Ok(fields) };

@@ -58,7 +58,9 @@ fn points(plan: &GrainPlan, runs: &[RunFields]) -> String {
 /// over to the friction.
 fn uncertainty(runs: &[RunFields], run: &RunFields) -> f64 {
     let [(inertia, scatter), (friction, own), _] = POINT.map(|k| run.core[k]);
-    let others = runs.iter().map(|run| (run.core[POINT[0]].0, run.core[POINT[1]].0));
+    // repeats on one slope have the same friction
+    let is_other = |point: &(f64, f64)| (point.1 - friction).abs() > EXACT * friction.abs();
+    let others = runs.iter().map(|run| (run.core[POINT[0]].0, run.core[POINT[1]].0)).filter(is_other);
     let below = others.clone().filter(|point| point.0 < inertia * (1.0 - APART)).max_by(|a, b| a.0.total_cmp(&b.0));
     let above = others.filter(|point| point.0 > inertia * (1.0 + APART)).min_by(|a, b| a.0.total_cmp(&b.0));
     let (low, high) = (below.unwrap_or((inertia, friction)), above.unwrap_or((inertia, friction)));
@@ -70,9 +72,9 @@ fn uncertainty(runs: &[RunFields], run: &RunFields) -> f64 {
 pub fn summary(runs: &[RunFields]) -> String {
     let line = |run: &RunFields| {
         let parts = ["I", "μ", "φ"].iter().zip(POINT.map(|k| run.core[k]));
-        let part = |(name, (value, u)): (&&str, (f64, f64))| match u > EXACT * value.abs() {
-            true => format!("{name} = {} ± {}", short_digits(value, 4), two_digits(u)),
-            false => format!("{name} = {}", short_digits(value, 4)),
+        let part = |(name, (value, u)): (&&str, (f64, f64))| match u <= EXACT * value.abs() {
+            true => format!("{name} = {}", short_digits(value, 4)),
+            false => format!("{name} = {} ± {}", short_digits(value, 4), two_digits(u)),
         };
         let parts: Vec<String> = parts.map(part).collect();
         let [pressure, shear] = run.balance();

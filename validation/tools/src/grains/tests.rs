@@ -200,13 +200,19 @@ fn layers_upside_down_repeated_and_of_two_sizes_are_refused() {
     };
     assert_eq!(message(&changed(&|_| {})), Ok(()));
     let fault = |change: &dyn Fn(&mut [f64])| message(&changed(change)).expect_err("refused");
-    assert!(fault(&|row| row[2] = LAYER[0] - row[2]).contains("falls with the height; let `y` be the height above"));
-    assert!(fault(&|row| row[3] = -row[3]).contains("falls with the height"));
+    assert!(fault(&|row| row[2] = LAYER[0] - row[2]).contains("the layer is fastest at its lower end"));
+    assert!(
+        fault(&|row| (row[2], row[3]) = (LAYER[0] - row[2], -row[3])).contains("let `y` be the height above the bed")
+    );
+    // the mirrored flow is the same one
+    assert_eq!(message(&changed(&|row| row[3] = -row[3])), Ok(()));
     let of_two = fault(&|row| row[5] *= if row[0] % 2.0 == 0.0 { 1.0 } else { 2.0 });
     assert!(of_two.contains("two distributions, up to 0.0005") && of_two.contains("give `grain_diameter`"), "{of_two}");
-    // the second frame again in the place of the third
-    let mut frames: Vec<&str> = text.split("ITEM: TIME\n").collect();
-    frames[3] = frames[2];
-    let repeated = message(&frames.join("ITEM: TIME\n")).expect_err("refused");
+    // the grains of the second frame again in the third
+    let frames: Vec<&str> = text.split("ITEM: TIME\n").collect();
+    let [rows, other] = [2, 3].map(|k| frames[k].split_once("ITEM: ATOMS").expect("a frame"));
+    let again = [frames[0], frames[1], frames[2], &[other.0, "ITEM: ATOMS", rows.1].concat()].join("ITEM: TIME\n");
+    let rest: String = frames[4..].iter().map(|frame| format!("ITEM: TIME\n{frame}")).collect();
+    let repeated = message(&(again + &rest)).expect_err("refused");
     assert!(repeated.contains("two frames hold the same grains"), "{repeated}");
 }
