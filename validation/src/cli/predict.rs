@@ -118,17 +118,16 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction, by_user: Option<f64>) -
         text +=
             &format!("yours         {} kg/(m s), {place} the 95 % interval; predicted over yours: {share}\n", of(rate));
     }
-    let measured = own.rates.as_ref().map_or_else(
-        || "fewer than ten runs near this Shields number; the scatter of all runs above 0.1 is used".to_owned(),
-        |rates| {
-            let median = of(rates.median * own.formula * unit);
-            format!("{median} kg/(m s), median of {} runs near this Shields number", rates.number)
-        },
-    );
-    text += &format!(
-        "measured      {measured}; formula of Wong & Parker (2006), exponent 1.6: {} kg/(m s)\n",
-        of(own.formula * unit)
-    );
+    text += &match &own.rates {
+        Some(rates) => {
+            let (median, number) = (of(rates.median * own.formula * unit), rates.number);
+            format!("measured      {median} kg/(m s), median of {number} runs near this Shields number\n")
+        }
+        None => "measured      fewer than ten runs near this Shields number: the scatter of all above 0.1 counts\n"
+            .to_owned(),
+    };
+    let formula = of(own.formula * unit);
+    text += &format!("formula       {formula} kg/(m s) by Wong & Parker (2006), exponent 1.6\n");
     let (shields, velocity) = (of(own.stream.shields_number()), of(own.velocity));
     text += &format!("Shields number {shields} at a mean velocity of {velocity} m/s\n");
     if flume.width.is_some() {
@@ -136,13 +135,17 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction, by_user: Option<f64>) -
         text += &format!("side walls    the bed carries {bed} of ρ g h S (Vanoni & Brooks 1957, smooth walls); ");
         text += &format!("with a smooth bed, {smooth} (Guo & Julien 2005)\n");
     }
-    let froude_number = own.velocity / (GRAVITY * flume.depth).sqrt();
-    let forms = if froude_number > 1.0 { "antidunes" } else { "ripples and dunes" };
-    text +=
-        &format!("not computed  bed forms (Froude number {}: {forms}), mixed sizes, suspension\n", of(froude_number));
+    if own.transport >= LEAST_TRANSPORT {
+        let froude_number = own.velocity / (GRAVITY * flume.depth).sqrt();
+        let forms = if froude_number > 1.0 { "antidunes" } else { "dunes" };
+        text += &format!(
+            "not computed  bed forms (Froude number {}: {forms}), mixed sizes, suspension\n",
+            of(froude_number)
+        );
+    }
     if own.outside.is_empty() {
         text += "inside the range compared with measurements\n";
     }
-    text.extend(own.outside.iter().map(|part| format!("outside the range compared with measurements: {part}\n")));
+    text.extend(own.outside.iter().map(|part| format!("reservation   {part}\n")));
     text
 }

@@ -153,16 +153,17 @@ impl BedLoadFlume {
         let beyond = |name: &str, value: f64, (least, most): (f64, f64)| {
             let digits = [value, least, most].map(four_digits);
             let is_outside = value < least || value > most;
-            is_outside.then(|| format!("{name} {}, not {} to {}", digits[0], digits[1], digits[2]))
+            is_outside.then(|| format!("{name} {} is outside of {} to {}", digits[0], digits[1], digits[2]))
         };
         let layer = stream.outside_bed_load();
         let [diameters, slopes] = measured_grains();
         let shields = stream.shields_number();
         [
-            layer.and_then(|own| beyond(own.quantity, own.value, (own.least, own.most))),
-            beyond("grain diameter [m]", self.grain_diameter, diameters),
-            beyond("slope [-]", self.slope, slopes),
-            (!has_rates).then(|| format!("Shields number {}: fewer than ten measured runs", four_digits(shields))),
+            layer.and_then(|own| beyond(&format!("bed load: {}", own.quantity), own.value, (own.least, own.most))),
+            beyond("measurements: grain diameter [m]", self.grain_diameter, diameters),
+            beyond("measurements: slope [-]", self.slope, slopes),
+            (!has_rates)
+                .then(|| format!("measurements: fewer than ten runs near Shields number {}", four_digits(shields))),
         ]
         .into_iter()
         .flatten()

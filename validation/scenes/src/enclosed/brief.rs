@@ -67,7 +67,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let stop = |wall: &S::Wall| {
             let Motion { times, displacements, .. } = wall.motion();
             let ([.., before, last], end) = (&displacements[..], *times.last()?) else { return None };
-            let ends = end < self.duration && before != last;
+            // a gate is meant to stop
+            let ends = end < self.duration && before != last && wall.load().is_some();
             ends.then(|| format!("; the motion of wall `{}` ends at {} s", wall.name(), four_digits(end)))
         };
         let openings = openings.chain(self.walls.iter().filter_map(stop));

@@ -39,12 +39,16 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     fn sudden_release(&self) -> Option<String> {
         let is_unprepared = self.preparation == BodyPreparation::None && self.from.is_none();
         let rests = |body: &S::Body| body.velocity().norm() == 0.0;
-        let (_, along) = Periods::of(&self.sides.axes()).split(&self.pull());
         let bears_shear = self.material.strength_at_rest(0.0).is_some() && self.smooth_floor().is_none();
-        (is_unprepared && bears_shear && along.norm() > 0.0 && self.bodies.iter().any(rests)).then(|| {
+        (is_unprepared && bears_shear && self.is_pulled_along() && self.bodies.iter().any(rests)).then(|| {
             "a layer on a periodic slope starts without shear stress and moves too far at first; give `preparation = \"stressed\"`"
                 .to_owned()
         })
+    }
+
+    /// Whether gravity pulls along a period.
+    pub(super) fn is_pulled_along(&self) -> bool {
+        Periods::of(&self.sides.axes()).split(&self.pull()).1.norm() > 0.0
     }
 
     /// Bodies of which a part is beyond a periodic side, and is left out without being an image of what is inside.

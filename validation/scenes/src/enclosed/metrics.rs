@@ -1,7 +1,7 @@
 //! Metrics of scenes: their balances, and their gauges compared with measurements.
 
 use super::flow::Dimension;
-use super::setting::SceneInlet;
+use super::setting::{SceneInlet, SceneWall};
 use super::sides::SceneSides;
 use super::{FedMass, Measurand, MeasuredSeries, SceneFlow, SceneObservation, SceneRecord, prediction, series};
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant, quantities};
@@ -296,6 +296,11 @@ fn numerical_viscosity<S: Dimension<D>, const D: usize>(
 /// mean pressure and the strength at rest is the dissipated energy.
 fn tell_coarse_shear<S: Dimension<D>, const D: usize>(data: &SceneObservation<D>, parameters: &SceneFlow<S, D>) {
     let law = &parameters.material;
+    // an impact is no shear: walls that move, or gravity along a period, drive one
+    let is_driven = parameters.walls.iter().any(|wall| !wall.motion().is_rest()) || parameters.is_pulled_along();
+    if !is_driven || !law.strength_is_friction() {
+        return;
+    }
     let (density, [Some(start), Some(end)]) = (parameters.bulk.density(law), [data.time.first(), data.time.last()])
     else {
         return;
