@@ -69,7 +69,8 @@ impl RunFields {
 
     /// Refuses a layer on a slope that is fastest at its lower end: its height has the wrong sign.
     pub(super) fn check_direction(&self, run: &GrainRun) -> Result<(), FieldError> {
-        if run.slope_angle.is_none() || !(self.core[2].0 * self.core[1].0 < 0.0) {
+        let falls = self.core[2].0 * self.core[1].0 < 0.0;
+        if run.slope_angle.is_none() || !falls {
             return Ok(());
         }
         let defect = "the layer is fastest at its lower end";
