@@ -60,8 +60,8 @@ impl<'f> Grains<'f> {
 
     /// Number of grains that move exactly as the most others do.
     pub(super) fn alike(&self) -> usize {
-        let mut velocities: Vec<[u64; 2]> =
-            self.rows.iter().map(|&row| ["vx", "vy"].map(|name| self.at(name, row).to_bits())).collect();
+        let [vx, vy] = ["vx", "vy"].map(|name| &self.columns[name]);
+        let mut velocities: Vec<[u64; 2]> = self.rows.iter().map(|&row| [vx[row], vy[row]].map(f64::to_bits)).collect();
         velocities.sort_unstable();
         velocities.chunk_by(|a, b| a == b).map(<[_]>::len).max().unwrap_or(0)
     }

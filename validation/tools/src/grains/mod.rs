@@ -61,9 +61,9 @@ fn average_run(plan: &GrainPlan, place: usize) -> Result<RunFields, ToolError> {
         let bin = diameter / BINS;
         let mut window = Window::default();
         window.total[0] = 1.0;
+        let [y, vx, vy] = ["y", "vx", "vy"].map(|name| &frame.columns[name]);
         for &row in &grains.rows {
-            let velocity = ["vx", "vy"].map(|name| grains.at(name, row));
-            window.add_grain(bin, grains.mass(run, row), grains.at("y", row), velocity);
+            window.add_grain(bin, grains.mass(run, row), y[row], [vx[row], vy[row]]);
         }
         alike = alike.min(grains.alike());
         if let Some(contacts) = &mut contacts {
