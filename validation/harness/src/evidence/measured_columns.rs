@@ -195,6 +195,7 @@ impl MeasuredColumns {
     /// Adds the repeats of another file, and what its comments say.
     fn add(&mut self, mut other: Self, path: &Path) -> Result<(), FieldError> {
         let over = in_unit(&other.over, &self.over.unit)?;
+        other.repeats.iter().chain(&other.stated).try_for_each(|own| in_unit(own, &self.repeats[0].unit).map(drop))?;
         let is_same = |(own, other): (&f64, &f64)| (own - other).abs() <= SAME * own.abs().max(other.abs());
         let is_equal = over.len() == self.over.values.len() && self.over.values.iter().zip(&over).all(is_same);
         if !is_equal || other.variants != self.variants {

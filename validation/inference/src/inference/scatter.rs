@@ -85,20 +85,21 @@ pub(super) fn averaged<M: Evaluate>(
 }
 
 /// Whether the runs in the outer half of an interval, on its lower or upper side, lie above their smooth fit by more than those about the
-/// best point do, and that by more than what bounds the interval: their fit is then no guide to its end.
+/// best point do: three at least, in the mean by more than what bounds the interval, each by half of that. Fewer may do so by chance.
 fn contradicted(region: &Region, k: usize, side: usize, history: &[Evaluated]) -> bool {
     let (best, end) = (region.minimum.point[k], region.profiles[k].ends[side][k]);
-    let excess = |from: f64, to: f64| {
+    let misses = |from: f64, to: f64| -> Vec<f64> {
         let is_there = |evaluated: &&Evaluated| {
             let share = (evaluated.point[k] - best) / (end - best);
             (from..=to).contains(&share) && region.rise(&evaluated.point) <= region.limit
         };
         let miss = |own: &Evaluated| Some(own.chi_squared? - region.emulator.chi_squared(&own.point));
-        let misses: Vec<f64> = history.iter().filter(is_there).filter_map(miss).collect();
-        misses.iter().sum::<f64>() / misses.len() as f64
+        history.iter().filter(is_there).filter_map(miss).collect()
     };
-    let inner = excess(-0.5, 0.5);
-    excess(0.5, 1.0) - if inner.is_finite() { inner } else { 0.0 } > region.limit
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let (inner, outer) = (mean(&misses(-0.5, 0.5)), misses(0.5, 1.0));
+    let is_above = |miss: &f64| miss - inner > 0.5 * region.limit;
+    outer.len() >= 3 && mean(&outer) - inner > region.limit && outer.iter().all(is_above)
 }
 
 /// Polynomials through all points in and about the region, equally faithful to those within a step of a difference.

@@ -59,11 +59,12 @@ fn plan(runs: Repeatability) -> SolvePlan {
 
 /// Joint regions and intervals of the experiments that hold the truth.
 fn held(variance: f64, runs: Repeatability) -> [usize; 3] {
-    let mut held = [0; 3];
+    let (mut held, mut settled) = ([0; 3], 0);
     for seed in 0..EXPERIMENTS {
         let mut model = Scattering::new(seed, variance);
         let answer = solve(&mut model, &plan(runs)).expect("it works");
         let explored = answer.explored.expect("points enough");
+        settled += explored.ends.iter().flatten().filter(|end| end.settled).count();
         let minimum = &explored.region.minimum;
         assert!(minimum.point == answer.search.best && minimum.chi_squared == answer.search.chi_squared);
         held[0] += usize::from(match runs {
@@ -77,7 +78,12 @@ fn held(variance: f64, runs: Repeatability) -> [usize; 3] {
             held[1 + k] += usize::from((from..=to).contains(&model.truth[k]));
         }
     }
-    println!("variance {variance}, {runs:?}: joint {}, single {:?} of {EXPERIMENTS}", held[0], &held[1..]);
+    assert!(runs == Repeatability::Smooth || settled >= 60, "{settled} of 64 ends are settled");
+    println!(
+        "variance {variance}, {runs:?}: joint {}, single {:?} of {EXPERIMENTS}; {settled} ends settled",
+        held[0],
+        &held[1..]
+    );
     held
 }
 

@@ -21,7 +21,7 @@ const MOST_NUMERICAL: f64 = 0.25;
 /// Largest root mean square of the speed of a liquid at rest at the end, over √(g H) `[-]`: particles that fall into place have as much. In
 /// slow flows viscosity takes most of the energy.
 const REST: f64 = 0.02;
-/// γ̇ Δ √(ρ/p) above which sheared grains bear too little friction `[-]`: 1 % at 0.3, 13 % at 0.46, under a load.
+/// γ̇ Δ √(ρ/p) above which sheared grains bear too little friction `[-]`: 0.2 % too little at 0.15, 1 % at 0.31, 9 to 14 % at 0.46, under a load.
 const MOST_AGITATION: f64 = 0.2;
 /// Least loss over the energy that went through a liquid `[-]`: a smaller one moves nothing that is measured.
 const LEAST_LOSS: f64 = 1e-3;

@@ -216,3 +216,24 @@ fn layers_upside_down_repeated_and_of_two_sizes_are_refused() {
     let repeated = message(&(again + &rest)).expect_err("refused");
     assert!(repeated.contains("two frames hold the same grains"), "{repeated}");
 }
+
+/// Two runs of one slope have one friction: the chord to the other slope carries their scatter over.
+#[test]
+fn repeats_on_one_slope_have_an_uncertainty() {
+    let folder = tempfile::tempdir().expect("a folder");
+    drawn(folder.path(), 6, 1500, 6);
+    let plan = plan(folder.path(), "slope_angle = 20.0");
+    let one = average(&plan).expect("averaged").remove(0);
+    let run = |inertia: f64, friction: f64| {
+        let mut run = one.clone();
+        (run.core[6], run.core[5]) = ((inertia, 0.01), (friction, 0.0));
+        run
+    };
+    write(&plan, &[run(0.1, 0.3), run(0.12, 0.3), run(0.2, 0.4)], folder.path()).expect("written");
+    let points = std::fs::read_to_string(folder.path().join("points.csv")).expect("written");
+    let sigma = |row: &str| row.split(',').nth(2).and_then(|word| word.parse::<f64>().ok()).expect("a number");
+    let sigmas: Vec<f64> = points.lines().skip(2).map(sigma).collect();
+    for (own, exact) in sigmas.iter().zip([0.01, 0.0125, 0.0125]) {
+        assert!((own - exact).abs() < 1e-12, "{sigmas:?}");
+    }
+}

@@ -22,6 +22,10 @@ pub(in crate::case) fn read_beside(fields: &mut Table, case: &str, path: &Path) 
                 "a file of measurements, or { files = […], columns = { t = \"ms [ms]\", toe = [\"run A [cm]\"] } }";
             ParameterError::field("measured.file", &named, rule, "write file = \"mine.csv\"").in_file(path)
         })?;
+        if files.files().is_empty() {
+            let remedy = "write file = \"mine.csv\"";
+            return Err(ParameterError::field("measured.file", &named, "one file or more", remedy).in_file(path));
+        }
         let gauge = measured.get("gauge").and_then(Value::as_str).unwrap_or_default();
         let is_own = |other: &&Value| other.get("name").and_then(Value::as_str) == Some(gauge);
         let own = gauges.iter().find(is_own);
@@ -103,6 +107,11 @@ mod tests {
             Ok("[[0.1, 0.15000000000000002], [0.2, 0.25], [0.4, 0.5]]")
         );
         assert_eq!(read(&["t [ms],toe: front [cm],other [m]\n1000,200,7\n"]).as_deref(), Ok("[[1.0, 2.0]]"));
+        let refused = read(&["t [s],toe [cm]\n1,20\n", "t [s],toe [kg]\n1,2\n"]).expect_err("refused");
+        assert!(refused.contains("b.csv: `toe` is [kg], but must be a unit that converts to [cm]"), "{refused}");
+        let mut none: Table = toml::from_str("[[measured]]\ngauge = \"toe\"\nfile = []").expect("TOML");
+        let none = read_beside(&mut none, "scene", &folder.path().join("case.toml")).expect_err("refused").to_string();
+        assert!(none.contains("case.toml: `measured.file` is [], but must be one file or more"), "{none}");
         for (texts, said) in [
             (
                 &["t [s],toe [cm]\n1,20\n", other][..],
