@@ -1,6 +1,6 @@
 //! The page of the book on other codes, from their stored results.
 
-use crate::documentation::reference::{assert_page, cell};
+use crate::documentation::reference::{assert_page, cell, wrapped};
 use bagnold_harness::case::{Silent, execute};
 use bagnold_harness::metric::{Metric, Verdict};
 use bagnold_harness::store::{Store, StorePolicy};
@@ -8,7 +8,7 @@ use bagnold_reference::collapse::{AT_REST, CodeQuantity, PLANAR_CODES};
 use bagnold_report::{Severity, Tally};
 use bagnold_tools::judge::{LawOrigin, judge};
 use bagnold_tools::league::{
-    League, LeagueRow, ORDER_HEADINGS, WIDTH_HEADINGS, blind, league, orders, read, split, submissions, widths,
+    League, LeagueRow, ORDER_HEADINGS, WIDTH_HEADINGS, league, orders, read, split, studies, submissions, widths,
 };
 use bagnold_validation::REGISTRY;
 use std::fmt::Write;
@@ -45,20 +45,6 @@ const WIDTHS: &str = "
 The table holds gated quantities of at least three codes of one law, Bagnold included. The width is
 half of an interval; for a bound it is the distance from the mean of the codes. A width below one
 standard deviation is narrow, from two on it is wide; its reason is that of the gate.
-
-";
-
-const BLIND: &str = "
-## Blind predictions of collapses of grains
-
-The friction of discs and spheres was measured on steady slopes and fitted by μ(I). Bagnold
-predicted their collapses from this fit. The seeds of the collapses follow from the digest of the
-stored prediction, so the collapses ran after it. The columns of discs with a = 1 and 3 were known
-from earlier trials with another fit.
-
-E is the prediction minus the mean of the grains, over that mean. u contains the measured friction
-and the particle spacing, u_val also the mean of the grains ([definitions](uncertainty.md)). The
-95 % interval contains the model errors of other comparisons.
 
 ";
 
@@ -171,11 +157,13 @@ fn the_page_on_other_codes_is_that_of_the_stored_results() {
     for row in widths(&league) {
         let _ = writeln!(text, "| {} |", row.map(|words| cell(&words)).join(" | "));
     }
-    text.push_str(BLIND);
-    let _ = writeln!(text, "| {} |\n|{}", blind::HEADINGS.join(" | "), "---|".repeat(blind::HEADINGS.len()));
-    let all = blind::read(&folder()).unwrap_or_else(|error| panic!("{error}"));
-    for row in blind::table(&all) {
-        let _ = writeln!(text, "| {} |", row.join(" | "));
+    for study in studies::studies(&folder()).unwrap_or_else(|error| panic!("{error}")) {
+        let paragraphs = [study.about, study.columns].map(wrapped).join("\n\n");
+        let line = "---|".repeat(study.headings.len());
+        let _ = writeln!(text, "\n## {}\n\n{paragraphs}\n\n| {} |\n|{line}", study.title, study.headings.join(" | "));
+        for row in study.rows {
+            let _ = writeln!(text, "| {} |", row.join(" | "));
+        }
     }
     assert_page("other-codes.md", &text);
 }

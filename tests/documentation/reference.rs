@@ -36,7 +36,7 @@ pub(crate) fn cell(text: &str) -> String {
 }
 
 /// A paragraph in lines of at most 100 characters.
-fn wrapped(text: &str) -> String {
+pub(crate) fn wrapped(text: &str) -> String {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let last = lines.last().map_or(0, |line| line.chars().count());

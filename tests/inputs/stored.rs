@@ -10,7 +10,7 @@ use bagnold_harness::output::OutputFolder;
 use bagnold_harness::store::{AllSpeeds, CodeOrigin, Store, StorePolicy};
 use bagnold_report::{Baseline, ExpectedFailures, GateList, RemovedGates};
 use bagnold_tools::calibration::CalibrationFolder;
-use bagnold_tools::league::blind;
+use bagnold_tools::league::studies;
 use bagnold_tools::sweep::slurm::{self, SlurmRequest};
 use bagnold_tools::sweep::{SweepFolder, SweepPlan, gather};
 use bagnold_validation::REGISTRY;
@@ -158,7 +158,7 @@ fn a_prediction_and_an_owner_are_read_or_refused() {
     contents.push(std::fs::read(&files[4]).expect("written"));
     damage(&files, &contents, |which| match which {
         4 => drop(begin()),
-        _ => drop(blind::read(&root.join("league"))),
+        _ => drop(studies::read(&root.join("league"), studies::BLIND)),
     });
 }
 

@@ -5,7 +5,8 @@ use bagnold_harness::metric::Verdict;
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_tools::ToolError;
 use bagnold_tools::judge::{self, CodeComparison};
-use bagnold_tools::league::{self, WRONG, blind};
+use bagnold_tools::league::studies::GrainComparison;
+use bagnold_tools::league::{self, WRONG, studies};
 use bagnold_validation::REGISTRY;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
@@ -80,6 +81,19 @@ fn decks_and_results_are_those_that_were_recorded() {
     assert!(checked >= 20, "{checked} folders");
 }
 
+/// The law of LAMMPS' slopes holds for the same discs in YADE and between walls; friction that is 10 % off does not pass.
+#[test]
+fn the_same_discs_have_one_friction_in_both_codes_and_geometries() {
+    let all = studies::read(&folder(), studies::FRICTION).unwrap_or_else(|error| panic!("{error}"));
+    let codes: BTreeSet<&str> = all.iter().map(|one| one.grains.as_str()).collect();
+    assert_eq!((codes.len(), all.len()), (2, 16));
+    let share = |one: &GrainComparison, off: f64| (one.value * off / one.mean().expect("three seeds") - 1.0).abs();
+    for one in &all {
+        assert!(share(one, 1.0) < 0.05, "{}, {}: {:?}", one.grains, one.case, one.error());
+        assert!([0.9, 1.1].iter().all(|off| share(one, *off) > 0.05), "{}, {}", one.grains, one.case);
+    }
+}
+
 /// Nobody can have known what the grains would do when the prediction was stored.
 #[test]
 fn seeds_of_the_blind_study_follow_from_the_digest_of_its_prediction() {
@@ -91,6 +105,6 @@ fn seeds_of_the_blind_study_follow_from_the_digest_of_its_prediction() {
     let column = rows.next().and_then(|heading| heading.iter().position(|name| *name == "seed")).expect("seeds");
     let run: BTreeSet<u16> = rows.map(|row| row[column].parse().expect("a seed")).collect();
     assert_eq!(run, from_digest);
-    let all = blind::read(&folder()).unwrap_or_else(|error| panic!("{error}"));
+    let all = studies::read(&folder(), studies::BLIND).unwrap_or_else(|error| panic!("{error}"));
     assert!(all.iter().all(|one| !one.measured.is_empty()), "every prediction has been compared");
 }

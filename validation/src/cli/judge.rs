@@ -28,7 +28,7 @@ pub(super) fn judge(command: &JudgeArguments, session: &mut Session<'_>) -> Resu
     let exit = Exit::of_runs(&results);
     let Some(own) = results.into_iter().next() else { return Ok(exit) };
     let judgement = judge::judge(own, &entries)?;
-    judge::write(&judgement, claimed.staging(), command.junit.as_deref())?;
+    judge::write(&judgement, claimed.staging(), command.figures.format(), command.junit.as_deref())?;
     claimed.publish()?;
     session.say(&verdicts(&judgement));
     let all = Tally(judgement.codes.iter().flat_map(|judged| judged.tally().0).collect());
@@ -53,13 +53,13 @@ pub(super) fn league(command: &LeagueArguments, session: &mut Session<'_>) -> Re
         return Err(ParameterError::field("FOLDER", folder.display(), rule, remedy).into());
     }
     let files = league::submissions(&folder)?;
-    let blind = league::blind::read(&folder)?;
+    let studies = league::studies::studies(&folder)?;
     let claimed = OutputFolder::claim(&command.out)?;
     let (prepared, entries) = league::split(league::read(&files, session.registry)?);
     let results = simulation::simulate(prepared, &command.work.open_store(), session.quiet, None, None)?;
     let judged = results.into_iter().zip(&entries).map(|(own, entries)| judge::judge(own, entries));
     let judged: Vec<CodeComparison> = judged.collect::<Result<_, _>>()?;
-    league::write(&league::league(&judged), &blind, claimed.staging())?;
+    league::write(&league::league(&judged), &studies, claimed.staging())?;
     claimed.publish()?;
     let mut case = "";
     for judgement in &judged {

@@ -3,7 +3,7 @@
 use super::arguments::{BedLoadArguments, CollapseArguments, PredictAction, PredictArguments};
 use super::simulation::simulate_announced;
 use super::{Exit, ProgramError, Session, in_pool};
-use crate::league::blind::BlindComparison;
+use crate::league::studies::GrainComparison;
 use crate::metric::{COVERAGE, Metric};
 use crate::output::{FileError, csv_text, write_whole};
 use crate::prediction::PredictionPlan;
@@ -52,7 +52,7 @@ fn collapse(case: &str, command: &CollapseArguments, session: &mut Session<'_>) 
 }
 
 /// A predicted quantity in lines.
-fn lines(own: &BlindComparison, metric: &Metric, plan: &PredictionPlan) -> String {
+fn lines(own: &GrainComparison, metric: &Metric, plan: &PredictionPlan) -> String {
     let PredictionPlan { resolution, draws, .. } = plan;
     let within = |value: f64, u: f64| in_unit(&format!("{} ± {}", four_digits(value), two_digits(u)), &metric.unit);
     let ends = |low: f64, high: f64| format!("{} … {}", four_digits(low), four_digits(high));

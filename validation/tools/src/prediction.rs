@@ -7,7 +7,7 @@ use crate::ToolError;
 use crate::case::{CaseResult, Limits, PreparedCase, Registry};
 use crate::evaluation::{CaseRequest, parse_plan};
 use crate::input::{DOCUMENT, FieldError, MeasuredFiles, WRITTEN_BY_HAND, read_text};
-use crate::league::{blind::BlindComparison, scatter};
+use crate::league::{scatter, studies::GrainComparison};
 use crate::measured::{Measurements, WantedColumns};
 use crate::metric::{Metric, Origin, Quantity};
 use crate::output::{FileError, FolderLock, Owner, claim, owner_of};
@@ -131,14 +131,14 @@ impl PredictionPlan {
         &self,
         results: &[CaseResult],
         measured: &[MeasuredQuantity],
-    ) -> Result<Vec<(BlindComparison, Metric)>, ToolError> {
+    ) -> Result<Vec<(GrainComparison, Metric)>, ToolError> {
         let quantity = |name: &'static str| {
             let found: Vec<&Metric> =
                 results.iter().enumerate().map(|run| self.metric(run, name)).collect::<Result<_, _>>()?;
             let [value, usual] = [0, 1].map(|run| found[run].value);
             let interval = found[0].prediction.as_ref();
             let own = measured.iter().find(|own| own.0 == name).map(|own| own.1);
-            let predicted = BlindComparison {
+            let predicted = GrainComparison {
                 case: self.case.clone(),
                 quantity: name.to_owned(),
                 value,
@@ -148,7 +148,7 @@ impl PredictionPlan {
                 upper: interval.map(|interval| interval.upper),
                 measured: own.iter().map(|own| own[0]).collect(),
                 u_measured: own.map(|own| own[1]),
-                ..BlindComparison::default()
+                ..GrainComparison::default()
             };
             Ok((predicted, found[0].clone()))
         };

@@ -4,8 +4,8 @@
 //! methods are; that is what "the same to another method" is worth.
 
 mod archive;
-pub mod blind;
 mod page;
+pub mod studies;
 mod widths;
 
 pub use page::{ORDER_HEADINGS, orders, write};

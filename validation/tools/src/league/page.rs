@@ -1,7 +1,7 @@
 //! Files of a league: the page and its numbers.
 
 use super::archive::archive;
-use super::blind::{self, BlindComparison};
+use super::studies::Study;
 use super::{League, LeagueRow};
 use crate::judge::{JudgedCode, mark, other_limit};
 use crate::metric::Metric;
@@ -17,8 +17,8 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be read or written.
-pub fn write(league: &League, blind: &[BlindComparison], folder: &Path) -> Result<(), ReportError> {
-    let document = document(league, blind);
+pub fn write(league: &League, studies: &[Study], folder: &Path) -> Result<(), ReportError> {
+    let document = document(league, studies);
     for (_, _, JudgedCode { submission, .. }) in &league.judged {
         let (name, cell) = (archive_name(&submission.path), submission.path.parent().unwrap_or(Path::new("")));
         let read = |error| FileError::unreadable(cell, &error);
@@ -60,7 +60,7 @@ pub fn orders(league: &League) -> Vec<[String; 8]> {
     rows
 }
 
-fn document(league: &League, blind: &[BlindComparison]) -> Value {
+fn document(league: &League, studies: &[Study]) -> Value {
     let count = |code: usize, case: usize| {
         let of = |tally: Tally| [Severity::Pass, Severity::NewFailure, Severity::NotJudged].map(|own| tally.of(own));
         league.tally(code, case).map(of).map(|of| json!({ "passing": of[0], "failing": of[1], "not_judged": of[2] }))
@@ -87,7 +87,7 @@ fn document(league: &League, blind: &[BlindComparison]) -> Value {
             let file = &judged.submission.path;
             json!({ "code": league.codes[*code], "case": league.cases[*case], "file": format!("{}.tar", archive_name(file)) })
         }).collect::<Vec<_>>(),
-        "blind": { "headings": blind::HEADINGS, "rows": blind::table(blind) },
+        "studies": studies,
     })
 }
 

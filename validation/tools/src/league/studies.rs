@@ -1,7 +1,7 @@
-//! The blind study of a league: collapses predicted from the friction of grains on slopes before the grains collapsed.
+//! Studies of grains in a league: what a law of their slopes predicts, beside the values of the grains.
 //!
-//! Errors and uncertainties are those of ASME V&V 20. The seeds of the grains follow from the digest of the prediction, so nobody
-//! can have known the collapses when it was made.
+//! Errors and uncertainties are those of ASME V&V 20. In the blind study the seeds of the grains follow from the digest of the
+//! prediction, so nobody can have known the collapses when it was made.
 
 use super::scatter;
 use crate::ToolError;
@@ -11,12 +11,14 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Folder of the study in a league.
-const FOLDER: &str = "blind/results";
+/// Folder of collapses predicted from the friction of grains on slopes before the grains collapsed.
+pub const BLIND: &str = "blind";
+/// Folder of the friction of the same grains in two codes, on slopes and between walls.
+pub const FRICTION: &str = "friction";
 
 /// A predicted quantity with the values of the grains.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct BlindComparison {
+pub struct GrainComparison {
     /// `discs` or `spheres`.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub grains: String,
@@ -62,18 +64,18 @@ fn rows<Row: DeserializeOwned>(path: &Path) -> Result<Vec<Row>, ToolError> {
     Ok(rows.map_err(|error| FileError::unreadable(path, &error.into()))?)
 }
 
-/// Reads the study of a league, if it has one.
+/// Reads a study of a league by its folder, if the league has it.
 ///
 /// # Errors
 /// Tables that cannot be read.
-pub fn read(league: &Path) -> Result<Vec<BlindComparison>, ToolError> {
-    let folder = league.join(FOLDER);
+pub fn read(league: &Path, study: &str) -> Result<Vec<GrainComparison>, ToolError> {
+    let folder = league.join(study).join("results");
     if !folder.is_dir() {
         return Ok(Vec::new());
     }
-    let mut all: Vec<BlindComparison> = rows(&folder.join("prediction.csv"))?;
+    let mut all: Vec<GrainComparison> = rows(&folder.join("prediction.csv"))?;
     for row in rows::<Measured>(&folder.join("measured.csv"))? {
-        let is_of = |one: &&mut BlindComparison| {
+        let is_of = |one: &&mut GrainComparison| {
             (&one.grains, &one.case, one.aspect_ratio, &one.quantity)
                 == (&row.grains, &row.case, row.aspect_ratio, &row.quantity)
         };
@@ -82,7 +84,7 @@ pub fn read(league: &Path) -> Result<Vec<BlindComparison>, ToolError> {
     Ok(all)
 }
 
-impl BlindComparison {
+impl GrainComparison {
     /// Mean of the grains over the seeds; none without runs.
     pub fn mean(&self) -> Option<f64> {
         (!self.measured.is_empty()).then(|| self.measured.iter().sum::<f64>() / self.measured.len() as f64)
@@ -118,8 +120,55 @@ impl BlindComparison {
     }
 }
 
-/// Headings of [`table`].
-pub const HEADINGS: [&str; 9] = [
+/// A study with its rows, as pages show it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Study {
+    /// Folder in the league.
+    pub name: &'static str,
+    /// Heading.
+    pub title: &'static str,
+    /// What was done.
+    pub about: &'static str,
+    /// What the columns mean.
+    pub columns: &'static str,
+    /// Headings of the columns.
+    pub headings: Vec<&'static str>,
+    /// Cells, row by row.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// The studies that a league has.
+///
+/// # Errors
+/// Tables that cannot be read.
+pub fn studies(league: &Path) -> Result<Vec<Study>, ToolError> {
+    let blind = Study {
+        name: BLIND,
+        title: "Blind predictions of collapses of grains",
+        about: "The friction of discs and spheres was measured on steady slopes and fitted by μ(I). Bagnold predicted their \
+            collapses from this fit. The seeds of the collapses follow from the digest of the stored prediction, so the collapses \
+            ran after it. The columns of discs with a = 1 and 3 were known from earlier trials with another fit.",
+        columns: "E is the prediction minus the mean of the grains, over that mean. u contains the measured friction and the \
+            particle spacing, u_val also the mean of the grains. The 95 % interval contains the model errors of other comparisons.",
+        headings: HEADINGS.to_vec(),
+        rows: table(&read(league, BLIND)?).into_iter().map(Vec::from).collect(),
+    };
+    // intervals and a nonlocal law are those of collapses
+    let own = |row: &[String; 9]| [0, 2, 3, 5, 6, 7].map(|k| row[k].clone()).to_vec();
+    let friction = Study {
+        name: FRICTION,
+        title: "Friction of the same discs in two codes and two geometries",
+        about: "LAMMPS and YADE ran the same discs on slopes and between bumpy walls that press and shear them, each with three \
+            seeds. μ(I) was fitted to the slopes of LAMMPS only.",
+        columns: "Each row compares friction at the mean inertial number I of its seeds. E is the law minus the mean of the \
+            grains, over that mean. u is the uncertainty of the fitted law, u_val contains also that of the mean.",
+        headings: vec!["code and flow", "friction: mean ± scatter (runs)", "law ± u", "E", "u_val", "verdict"],
+        rows: table(&read(league, FRICTION)?).iter().map(own).collect(),
+    };
+    Ok([blind, friction].into_iter().filter(|study| !study.rows.is_empty()).collect())
+}
+
+const HEADINGS: [&str; 9] = [
     "collapse or slope",
     "quantity",
     "grains: mean ± scatter (runs)",
@@ -132,18 +181,18 @@ pub const HEADINGS: [&str; 9] = [
 ];
 
 /// The comparisons as a table: a row for each quantity, with the local law first and the nonlocal law's error last.
-pub fn table(all: &[BlindComparison]) -> Vec<[String; 9]> {
+fn table(all: &[GrainComparison]) -> Vec<[String; 9]> {
     let share = |part: f64, whole: f64| format!("{} %", two_digits(100.0 * part / whole));
-    let place = |one: &BlindComparison| {
+    let place = |one: &GrainComparison| {
         let aspect_ratio = one.aspect_ratio.map(|a| format!(" a = {a}")).unwrap_or_default();
         format!("{}, {}{aspect_ratio}", one.grains, one.case)
     };
-    let error = |one: &BlindComparison| match (one.error(), one.mean()) {
+    let error = |one: &GrainComparison| match (one.error(), one.mean()) {
         (Some(error), Some(mean)) => format!("{}{}", if error > 0.0 { "+" } else { "" }, share(error, mean)),
         _ => String::new(),
     };
-    let is_same = |a: &BlindComparison, b: &BlindComparison| place(a) == place(b) && a.quantity == b.quantity;
-    let row = |one: &BlindComparison| {
+    let is_same = |a: &GrainComparison, b: &GrainComparison| place(a) == place(b) && a.quantity == b.quantity;
+    let row = |one: &GrainComparison| {
         let (u_val, _) = one.uncertainty();
         let u = (one.u_input * one.u_input + one.u_numerical * one.u_numerical).sqrt();
         let nonlocal = all.iter().find(|other| other.law == "nonlocal" && is_same(one, other));
@@ -171,11 +220,11 @@ pub fn table(all: &[BlindComparison]) -> Vec<[String; 9]> {
 mod tests {
     use super::*;
 
-    fn of(measured: &[f64]) -> BlindComparison {
+    fn of(measured: &[f64]) -> GrainComparison {
         let text = "grains,law,case,aspect_ratio,quantity,value,u_input,u_numerical,lower,upper\n\
                     discs,local,column-planar,0.5,run_out,1.5,0.03,0.04,1.0,\n";
         let mut reader = csv::Reader::from_reader(text.as_bytes());
-        let mut one: BlindComparison = reader.deserialize().next().expect("a row").expect("a comparison");
+        let mut one: GrainComparison = reader.deserialize().next().expect("a row").expect("a comparison");
         one.measured = measured.to_vec();
         one
     }
