@@ -1,6 +1,7 @@
 //! Whole calibrations of a film's viscosity: each thing that can be wrong with a problem has its finding.
 
 use super::coverage::normal;
+use bagnold_figure::FigureFormat;
 use bagnold_harness::case::Limits;
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_reference::film::{HerschelBulkleyFilm, Incline};
@@ -175,7 +176,7 @@ fn intervals_on_the_page_are_those_of_the_sampled_region() {
         }
     }
     assert!(told >= 2, "{:?}", outcome.findings);
-    write(&outcome, &plan(folder.path()), folder.path()).expect("a folder to write in");
+    write(&outcome, &plan(folder.path()), folder.path(), FigureFormat::SCREEN).expect("a folder to write in");
     let page = std::fs::read_to_string(folder.path().join("index.html")).expect("written");
     // what is constrained least comes first, with the interval of the result
     let mut rows: Vec<_> = outcome.parameters.iter().collect();

@@ -2,6 +2,7 @@
 
 use super::coverage::normal;
 use super::findings::{outcome, plan};
+use bagnold_figure::FigureFormat;
 use bagnold_tools::calibration::{CalibrationResult, write};
 use bagnold_validation::REGISTRY;
 use std::path::Path;
@@ -65,7 +66,7 @@ fn intervals_of_a_law_hold_the_truth_in_nine_of_ten_sets() {
 
 /// Whether the file of the law has the best values and draws.
 fn has_draws(outcome: &CalibrationResult, folder: &Path) -> bool {
-    write(outcome, &plan(folder), &folder.join("out")).expect("written");
+    write(outcome, &plan(folder), &folder.join("out"), FigureFormat::SCREEN).expect("written");
     let law = std::fs::read_to_string(folder.join("out/law.toml")).expect("written");
     let law: toml::Table = toml::from_str(&law).expect("TOML");
     let draws = law["draws"].as_array().expect("draws");

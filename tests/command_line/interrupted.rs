@@ -66,7 +66,7 @@ fn nohup_ignores_the_end_of_the_terminal() {
 fn a_signal_ends_the_filling_of_a_body() {
     let place = place();
     let tower = "case = \"scene\"\nname = \"tower\"\nspacing = 0.005\nduration = 100.0\n\
-        [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0]\nupper = [0.02, 1000.0]\n";
+        [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0]\nupper = [0.02, 300.0]\n";
     place.file("tower.toml", tower);
     let mut process = Command::new(program::path());
     process.current_dir(place.path("")).args(["run", "tower.toml", "--store", "store"]).stdout(Stdio::null());

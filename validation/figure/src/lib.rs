@@ -5,7 +5,7 @@
 //! uncertainty and [`Field`]s of particles. Colours are told apart by the colour-blind, and marks differ in shape too.
 //!
 //! ```
-//! use bagnold_figure::{Axis, Figure, Panel};
+//! use bagnold_figure::{Axis, Figure, FigureFormat, Panel};
 //!
 //! let mut panel = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
 //! panel.reference("exact", (0..=20).map(|k| f64::from(k) / 20.0).map(|y| (y * (2.0 - y), y)));
@@ -13,7 +13,7 @@
 //! let figure = Figure::new("profile", "Velocity over the depth of a film.", vec![panel]);
 //!
 //! let folder = tempfile::tempdir().expect("a folder");
-//! let picture = bagnold_figure::write(&figure, folder.path()).expect("drawn");
+//! let picture = bagnold_figure::write(&figure, folder.path(), FigureFormat::SCREEN).expect("drawn");
 //! assert!(std::fs::read_to_string(picture.with_extension("svg")).expect("written").contains("y/h [-]"));
 //! assert_eq!(bagnold_figure::size_of(&picture).expect("a picture").0, 1600);
 //! ```
@@ -180,15 +180,15 @@ pub struct Figure {
     pub columns: usize,
 }
 
-/// Draws `figure` for the screen into `folder` as `NAME.svg`, `NAME.png` and `NAME.pdf`, with its data in `NAME.csv`; the
-/// folder is made if it is missing. The path of the PNG, which is 1600 px wide.
+/// Draws `figure` in a format into `folder` as `NAME.svg`, `NAME.png` and `NAME.pdf`, with its data in `NAME.csv`; the
+/// folder is made if it is missing. The path of the PNG.
 ///
 /// # Errors
 /// If the name is no file name, drawing fails, or a file cannot be written.
-pub fn write(figure: &Figure, folder: &Path) -> Result<PathBuf, FigureError> {
-    let drawn = render::svg(figure, FigureFormat::SCREEN)?;
-    let raster = render::png(&drawn, FigureFormat::SCREEN)?;
-    let page = render::pdf(&drawn, FigureFormat::SCREEN)?;
+pub fn write(figure: &Figure, folder: &Path, format: FigureFormat) -> Result<PathBuf, FigureError> {
+    let drawn = render::svg(figure, format)?;
+    let raster = render::png(&drawn, format)?;
+    let page = render::pdf(&drawn, format)?;
     let put = |ending: &str, bytes: &[u8]| put(folder, &figure.name, ending, bytes);
     put("pdf", &page)?;
     put("csv", csv(figure).as_bytes())?;

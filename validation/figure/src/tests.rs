@@ -210,11 +210,15 @@ fn degenerate_data_draw_something() {
 #[test]
 fn files_get_the_figure_s_name_and_a_name_stays_in_its_folder() {
     let folder = tempfile::tempdir().expect("folder");
-    let written = write(&figure(vec![panel(Vec::new())]), &folder.path().join("figures")).expect("written");
+    let written =
+        write(&figure(vec![panel(Vec::new())]), &folder.path().join("figures"), FigureFormat::SCREEN).expect("written");
     assert!(written.ends_with("figures/velocity-profile.png") && written.with_extension("svg").exists());
     assert!(std::fs::read(&written).expect("PNG").starts_with(b"\x89PNG"));
     for name in ["", "../escape", "a/b", ".hidden", "a b"] {
         let named = Figure { name: name.to_owned(), ..figure(Vec::new()) };
-        assert!(matches!(write(&named, folder.path()), Err(FigureError::Name { .. })), "{name:?}");
+        assert!(
+            matches!(write(&named, folder.path(), FigureFormat::SCREEN), Err(FigureError::Name { .. })),
+            "{name:?}"
+        );
     }
 }

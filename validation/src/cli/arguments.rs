@@ -364,6 +364,9 @@ pub struct CalibrateArguments {
     /// Reopen a finished calibration; an unfinished one resumes without this option.
     #[arg(long)]
     pub resume: bool,
+    /// Size of figures.
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// Resource limits of the runs at one point.
     #[command(flatten)]
     pub allowance: ResourceLimits,

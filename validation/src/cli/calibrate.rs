@@ -40,7 +40,7 @@ pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Re
     bar.plan(plan.usual_evaluations());
     let outcome = calibrate(&plan, &kept, session.registry, &command.work.open_store(), &bar)?;
     drop(bar);
-    write(&outcome, &plan, &folder)?;
+    write(&outcome, &plan, &folder, command.figures.format())?;
     session.say(&text(&outcome));
     let beyond = outcome.evaluations.len().saturating_sub(outcome.searched);
     let (searched, simulations) = (outcome.searched, outcome.simulations);

@@ -12,7 +12,7 @@ pub(super) fn grains(command: &GrainsArguments, session: &mut Session<'_>) -> Re
     let folder = folder_of(command.out.as_ref(), "reports/grains", &command.file);
     let runs = average(&plan)?;
     let claimed = OutputFolder::claim(&folder)?;
-    write(&plan, &runs, claimed.staging())?;
+    write(&plan, &runs, claimed.staging(), command.figures.format())?;
     claimed.publish()?;
     session.say(&summary(&runs));
     session.say(&format!("Points of the law: {}\n", folder.join("points.csv").display()));

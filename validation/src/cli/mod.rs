@@ -67,7 +67,11 @@ pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into
     let words: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
     match Arguments::try_parse_from(&words) {
         Ok(arguments) => conduct(arguments.verbosity, registry, |session| act(&arguments.command, session)),
-        Err(answer) => {
+        Err(mut answer) => {
+            // an option that another command has is no value of this one
+            if answer.get(ContextKind::InvalidArg).is_some() && answer.get(ContextKind::SuggestedArg).is_none() {
+                answer.remove(ContextKind::Suggested);
+            }
             if answer.use_stderr() {
                 refuse_in_junit(&words, &answer.to_string());
             }

@@ -1,7 +1,7 @@
 //! Common parts of the pages of reports, judgements, comparisons and calibrations: the style, the templates' filling,
 //! and figures that are drawn beside them.
 
-use crate::figure::{self, Figure, FigureError};
+use crate::figure::{self, Figure, FigureError, FigureFormat};
 use serde::Serialize;
 use std::path::Path;
 
@@ -14,14 +14,18 @@ pub struct PageFigure {
     size: Option<(u32, u32)>,
 }
 
-/// Draws figures into a folder. One that cannot be drawn is said in the log and left out: it is no reason to lose the numbers.
+/// Draws figures in a format into a folder. One that cannot be drawn is said in the log and left out: it is no reason to lose the numbers.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn draw<'f>(figures: impl IntoIterator<Item = &'f Figure>, folder: &Path) -> Result<Vec<PageFigure>, FigureError> {
+pub fn draw<'f>(
+    figures: impl IntoIterator<Item = &'f Figure>,
+    folder: &Path,
+    format: FigureFormat,
+) -> Result<Vec<PageFigure>, FigureError> {
     let mut drawn = Vec::new();
     for figure in figures {
-        match figure::write(figure, folder) {
+        match figure::write(figure, folder, format) {
             Ok(written) => drawn.push(PageFigure {
                 name: figure.name.clone(),
                 caption: figure.caption.clone(),

@@ -1,6 +1,6 @@
 //! Commands that deal with other codes.
 
-use super::{ExecutionOptions, Tier};
+use super::{ExecutionOptions, FigureOptions, Tier};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -53,6 +53,9 @@ pub struct JudgeArguments {
     /// Also write the verdicts as JUnit XML, one suite per code.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// Size of figures.
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
@@ -113,6 +116,9 @@ pub struct GrainsArguments {
     /// Output folder [default: reports/grains/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Size of figures.
+    #[command(flatten)]
+    pub figures: FigureOptions,
 }
 
 const COMPARE_EXAMPLES: &str = "Examples:

@@ -6,7 +6,7 @@ use super::result::{
 };
 use super::{figures, held_out, law};
 use crate::evidence::HeldOutJudgement;
-use crate::figure::FigureError;
+use crate::figure::{FigureError, FigureFormat};
 use crate::inference::UNLIKELY;
 use crate::number::{four_digits, short_digits};
 use crate::output::{FileError, csv_text, write_whole};
@@ -20,10 +20,15 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(outcome: &CalibrationResult, plan: &CalibrationPlan, folder: &Path) -> Result<(), FileError> {
+pub fn write(
+    outcome: &CalibrationResult,
+    plan: &CalibrationPlan,
+    folder: &Path,
+    format: FigureFormat,
+) -> Result<(), FileError> {
     let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
     let undrawn = |error: FigureError| unwritable(io::Error::other(error.to_string()));
-    let pictures = page::draw(&figures::all(outcome), &folder.join("figures")).map_err(undrawn)?;
+    let pictures = page::draw(&figures::all(outcome), &folder.join("figures"), format).map_err(undrawn)?;
     for (place, text) in outcome.calibrated.iter().enumerate() {
         let name = if place == 0 { "calibrated.toml".to_owned() } else { format!("calibrated-{}.toml", place + 1) };
         write_whole(&folder.join(name), text.as_bytes()).map_err(unwritable)?;

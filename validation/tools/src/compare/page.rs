@@ -4,7 +4,7 @@ use super::difference::{Difference, differences};
 use super::figures;
 use super::parameters::changed;
 use super::reading::Results;
-use crate::figure::Figure;
+use crate::figure::{Figure, FigureFormat};
 use crate::judge::mark;
 use crate::number::{four_digits, two_digits};
 use crate::page;
@@ -24,7 +24,7 @@ pub fn write(all: &[Results], folder: &Path) -> Result<Vec<Difference>, ReportEr
     let found = differences(all);
     let cases: BTreeSet<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
     let figures: Vec<Figure> = cases.into_iter().flat_map(|case| figures::all(all, case)).collect();
-    let pictures = page::draw(&figures, &folder.join("figures"))?;
+    let pictures = page::draw(&figures, &folder.join("figures"), FigureFormat::SCREEN)?;
     put(&folder.join("differences.json"), pretty(&found.iter().map(line).collect::<Vec<_>>()))?;
     let parameters = changed(all);
     put(&folder.join("parameters.json"), pretty(&parameters))?;

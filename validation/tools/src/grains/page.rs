@@ -2,7 +2,7 @@
 
 use super::fields::{POINT, RunFields};
 use super::plan::GrainPlan;
-use crate::figure::{self, Axis, Figure, Panel};
+use crate::figure::{self, Axis, Figure, FigureFormat, Panel};
 use crate::number::{short_digits, two_digits};
 use crate::output::{FileError, caution, write_whole};
 use std::io;
@@ -22,7 +22,7 @@ const FASTEST: f64 = 3.0;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(plan: &GrainPlan, runs: &[RunFields], folder: &Path) -> Result<(), FileError> {
+pub fn write(plan: &GrainPlan, runs: &[RunFields], folder: &Path, format: FigureFormat) -> Result<(), FileError> {
     let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
     runs.iter().try_for_each(|run| run.table.write(folder)).map_err(unwritable)?;
     write_whole(&folder.join("points.csv"), points(plan, runs).as_bytes()).map_err(unwritable)?;
@@ -38,7 +38,7 @@ pub fn write(plan: &GrainPlan, runs: &[RunFields], folder: &Path) -> Result<(), 
     let caption =
         format!("{}: means over the core of each run, with standard uncertainties as in points.csv.", plan.title);
     let drawn = Figure::new("law", &caption, panels.into());
-    let drawn = figure::write(&drawn, &folder.join("figures"));
+    let drawn = figure::write(&drawn, &folder.join("figures"), format);
     drawn.map(drop).map_err(|error| unwritable(io::Error::other(error.to_string())))
 }
 

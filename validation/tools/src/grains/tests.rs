@@ -229,7 +229,8 @@ fn repeats_on_one_slope_have_an_uncertainty() {
         (run.core[6], run.core[5]) = ((inertia, 0.01), (friction, 0.0));
         run
     };
-    write(&plan, &[run(0.1, 0.3), run(0.12, 0.3), run(0.2, 0.4)], folder.path()).expect("written");
+    write(&plan, &[run(0.1, 0.3), run(0.12, 0.3), run(0.2, 0.4)], folder.path(), crate::figure::FigureFormat::SCREEN)
+        .expect("written");
     let points = std::fs::read_to_string(folder.path().join("points.csv")).expect("written");
     let sigma = |row: &str| row.split(',').nth(2).and_then(|word| word.parse::<f64>().ok()).expect("a number");
     let sigmas: Vec<f64> = points.lines().skip(2).map(sigma).collect();

@@ -2,6 +2,7 @@
 
 use super::document::{biases, document, given, junit};
 use super::{CodeComparison, JudgedCode, MetricComparison};
+use crate::figure::FigureFormat;
 use crate::metric::{Metric, Verdict};
 use crate::number::{four_digits, two_digits};
 use crate::output::FileError;
@@ -16,8 +17,13 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(judgement: &CodeComparison, folder: &Path, junit_file: Option<&Path>) -> Result<(), ReportError> {
-    let pictures = page::draw(&judgement.figures, &folder.join("figures"))?;
+pub fn write(
+    judgement: &CodeComparison,
+    folder: &Path,
+    format: FigureFormat,
+    junit_file: Option<&Path>,
+) -> Result<(), ReportError> {
+    let pictures = page::draw(&judgement.figures, &folder.join("figures"), format)?;
     for table in &judgement.own.tables {
         let tables = folder.join("tables");
         let failed = |error| FileError::unwritable(&tables, &error);

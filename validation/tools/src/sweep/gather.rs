@@ -5,7 +5,7 @@ use super::manifest::{Manifest, SweepRun};
 use super::map::{self, MetricMap};
 use crate::case::Registry;
 use crate::evaluation::{EvaluationRecord, MetricValue};
-use crate::figure::{Axis, Figure, FigureError, Panel};
+use crate::figure::{Axis, Figure, FigureError, FigureFormat, Panel};
 use crate::metric::{Variant, Verdict};
 use crate::output::{FileError, csv_text, write_whole};
 use crate::{ToolError, page};
@@ -33,7 +33,7 @@ pub fn gather(sweep: &SweepFolder, registry: Registry) -> Result<SweepProgress, 
     }
     let figures = figures(sweep.manifest(), &records);
     let undrawn = |error: FigureError| unwritable(std::io::Error::other(error.to_string()));
-    page::draw(&figures, &sweep.path().join("figures")).map_err(undrawn)?;
+    page::draw(&figures, &sweep.path().join("figures"), FigureFormat::SCREEN).map_err(undrawn)?;
     let empty = |record: &EvaluationRecord| record.metrics.iter().filter(|metric| !metric.value.is_finite()).count();
     let whole = records.iter().filter(|(_, record)| record.failure.is_none());
     Ok(SweepProgress { without_value: whole.map(|(_, record)| empty(record)).sum(), ..sweep.tally() })
