@@ -136,8 +136,8 @@ fn data_far_from_all_others_are_named() {
         8 => 0.7 * velocity,
         _ => velocity,
     });
-    assert_told(&findings, &["u [m/s] at 3.5714e-3", "an outlier"]);
-    assert_told(&findings, &["u [m/s] at 7.1429e-3", "an outlier"]);
+    assert_told(&findings, &["u [m/s] at 0.0035714", "an outlier"]);
+    assert_told(&findings, &["u [m/s] at 0.0071429", "an outlier"]);
 }
 
 /// The numbers after "`name` = " in a sentence.

@@ -67,6 +67,8 @@ fn intervals_of_a_law_hold_the_truth_in_nine_of_ten_sets() {
 /// Whether the file of the law has the best values and draws.
 fn has_draws(outcome: &CalibrationResult, folder: &Path) -> bool {
     write(outcome, &plan(folder), &folder.join("out"), FigureFormat::SCREEN).expect("written");
+    let fit = std::fs::read_to_string(folder.join("out/figures/fit.csv")).expect("a figure");
+    assert_eq!(fit.matches("I [-],μ [-],line,model,").count(), 80, "a formula is drawn as a curve: {fit}");
     let law = std::fs::read_to_string(folder.join("out/law.toml")).expect("written");
     let law: toml::Table = toml::from_str(&law).expect("TOML");
     let draws = law["draws"].as_array().expect("draws");

@@ -318,9 +318,14 @@ fn a_series_of_the_front_of_a_scene_is_judged_by_what_its_file_says_was_measured
     place.file("mine.toml", submission);
     place.file("flume.toml", FLUME.split("[[measured]]").next().expect("text"));
     judge(1);
-    let told = place.bagnold(&["judge", "mine.toml", "--out", "judged"]).assert().code(1);
+    let told = place.bagnold(&["judge", "mine.toml", "--out", "judged", "--junit", "judged.xml"]).assert().code(1);
     let told = String::from_utf8_lossy(&told.get_output().stdout).into_owned();
-    assert!(told.contains("no gate was judged: the case has none; a scene has those of its [[measured]]"), "{told}");
+    let xml = std::fs::read_to_string(place.path("judged.xml")).expect("JUnit");
+    assert!(xml.contains("errors=\"1\"") && xml.contains("no gate was judged"), "{xml}");
+    assert!(
+        told.contains("no gate was judged: the case has none; a scene has one for each [[measured]] with a `limit`"),
+        "{told}"
+    );
     // a scene in which nothing measures a front
     let without = FLUME.split("[[gauges]]").next().expect("text");
     place.file("flume.toml", without);
@@ -333,4 +338,7 @@ fn a_series_of_the_front_of_a_scene_is_judged_by_what_its_file_says_was_measured
     place.file("flume.toml", &FLUME.replace("\"scene\"", "\"film\""));
     let message = judge(2);
     assert!(message.contains("`case` is \"scene\", but must be the case of flume.toml, \"film\""), "{message}");
+    place.file("mine.toml", &submission.replace("base = \"flume.toml\"\n", ""));
+    let message = judge(2);
+    assert!(message.contains("name the file of the scene by `base`"), "{message}");
 }

@@ -47,13 +47,14 @@ fn what_was_compared_with_measurements_is_told_from_what_was_not() {
 
 #[test]
 fn a_measured_rate_is_inside_of_the_interval_or_not() {
-    let of = |rate: &str| {
+    let of = |slope: &str, rate: &str| {
         let options =
             ["predict", "bed-load", "--grain-diameter", "0.0025", "--draws", "8", "--depth", "0.08", "--slope"];
-        let finished = Place::new().bagnold(&[&options[..], &["0.02", "--measured", rate]].concat()).assert().code(0);
+        let finished = Place::new().bagnold(&[&options[..], &[slope, "--measured", rate]].concat()).assert().code(0);
         String::from_utf8_lossy(&finished.get_output().stdout).into_owned()
     };
-    let [own, far] = [of("1.0"), of("100.0")];
+    let [own, far, still] = [of("0.02", "1.0"), of("0.02", "100.0"), of("0.001", "1.0")];
+    assert!(still.contains("yours         1 kg/(m s), none is predicted"), "{still}");
     assert!(own.contains("yours         1 kg/(m s), inside of the 95 % interval; predicted over yours: "), "{own}");
     assert!(far.contains("outside of the 95 % interval") && far.contains(": antidunes)"), "{far}");
 }

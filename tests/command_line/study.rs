@@ -41,6 +41,18 @@ fn refused(place: &Place, text: &str) -> String {
     String::from_utf8_lossy(&finished.get_output().stderr).into_owned()
 }
 
+/// A limit of a study that is looser than that of its file would be green in silence.
+#[test]
+fn a_limit_beyond_that_of_the_measurements_is_refused() {
+    let place = place();
+    place.file("front.csv", &format!("# limit: 2\n{AHEAD}"));
+    let study = |limit: &str| STUDY.replace("distance = \"mean\"\nat_most = 0.0", limit);
+    let message = refused(&place, &study("at_most = 3.0"));
+    assert!(message.contains("at_most` is 3, but must be at most 2, the `# limit` of the measurements"), "{message}");
+    place.file("study.toml", &study("at_most = 1.5"));
+    place.run(&["study.toml"]).code(1);
+}
+
 #[test]
 fn a_study_is_judged_by_what_its_tables_hold() {
     let place = place();

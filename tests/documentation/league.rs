@@ -160,6 +160,7 @@ fn the_page_on_other_codes_is_that_of_the_stored_results() {
     for study in studies::studies(&folder()).unwrap_or_else(|error| panic!("{error}")) {
         let paragraphs = [study.about, study.columns].map(wrapped).join("\n\n");
         let line = "---|".repeat(study.headings.len());
+        let paragraphs = paragraphs + "\n\nVerdicts and u are [defined](uncertainty.md) elsewhere.";
         let _ = writeln!(text, "\n## {}\n\n{paragraphs}\n\n| {} |\n|{line}", study.title, study.headings.join(" | "));
         for row in study.rows {
             let _ = writeln!(text, "| {} |", row.join(" | "));

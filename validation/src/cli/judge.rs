@@ -88,7 +88,9 @@ fn verdicts(judgement: &CodeComparison) -> String {
         };
         let table = report::of_metrics(foreign().filter(is_shown), terminal::shape());
         let nothing = match tally.all() - tally.of(Severity::NotJudged) {
-            0 if tally.all() == 0 => "no gate was judged: the case has none; a scene has those of its [[measured]]\n",
+            0 if tally.all() == 0 => {
+                "no gate was judged: the case has none; a scene has one for each [[measured]] with a `limit`\n"
+            }
             0 => "no gate was judged; the page lists the data that each gate needs\n",
             _ => "",
         };

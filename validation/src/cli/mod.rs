@@ -69,7 +69,9 @@ pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into
         Ok(arguments) => conduct(arguments.verbosity, registry, |session| act(&arguments.command, session)),
         Err(mut answer) => {
             // an option that another command has is no value of this one
-            if answer.get(ContextKind::InvalidArg).is_some() && answer.get(ContextKind::SuggestedArg).is_none() {
+            if let Some(ContextValue::StyledStrs(tips)) = answer.get(ContextKind::Suggested)
+                && tips.iter().any(|tip| tip.to_string().starts_with("to pass"))
+            {
                 answer.remove(ContextKind::Suggested);
             }
             if answer.use_stderr() {

@@ -115,8 +115,11 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction, by_user: Option<f64>) -
         let is_inside = (own.interval.0 * unit..=own.interval.1 * unit).contains(&rate);
         let place = if is_inside { "inside of" } else { "outside of" };
         let share = of(own.transport * unit / rate);
-        text +=
-            &format!("yours         {} kg/(m s), {place} the 95 % interval; predicted over yours: {share}\n", of(rate));
+        let verdict = match own.transport < LEAST_TRANSPORT {
+            true => "none is predicted".to_owned(),
+            false => format!("{place} the 95 % interval; predicted over yours: {share}"),
+        };
+        text += &format!("yours         {} kg/(m s), {verdict}\n", of(rate));
     }
     text += &match &own.rates {
         Some(rates) => {

@@ -72,7 +72,10 @@ impl MeasuredColumns {
         given: &MeasuredFiles,
         wanted: WantedColumns<'_>,
     ) -> Result<Self, E> {
-        let names = if let MeasuredFiles::Named { columns, .. } = given { Some(columns) } else { None };
+        let names = match given {
+            MeasuredFiles::Named { columns, .. } if !columns.is_empty() => Some(columns),
+            _ => None,
+        };
         let read = |path: &Path| -> Result<Self, E> {
             let text = read_text(path, DOCUMENT).map_err(|error| FileError::unreadable(path, &error))?;
             Ok(parse(path, &plain_lines(&text), names, wanted).map_err(|error| error.in_file(path))?)
@@ -181,7 +184,11 @@ pub fn in_unit(column: &NumberColumn, to: &str) -> Result<Vec<f64>, FieldError> 
             Some(unknown) => format!("a known unit, such as [cm/s] or [kPa]; [{unknown}] is unknown"),
             None => format!("a unit that converts to [{to}]"),
         };
-        FieldError::new(&column.name, format!("[{}]", column.unit), &rule, "correct the unit in the heading")
+        let remedy = match to {
+            "-" if unit::is_known(&column.unit) => "divide the values by their scale, and write [-]",
+            _ => "correct the unit in the heading",
+        };
+        FieldError::new(&column.name, format!("[{}]", column.unit), &rule, remedy)
     })?;
     Ok(column.values.iter().map(|value| value * factor).collect())
 }
@@ -218,11 +225,13 @@ impl MeasuredColumns {
                 own.values = places.iter().map(|place| at(place).unwrap_or(f64::NAN)).collect();
             }
             let (name, file, rows) = (&self.over.name, path.display(), places.len());
-            let missing = match rows - number {
-                0 => String::new(),
-                missing => format!("; it has none at {missing} of {rows}, which count with one repeat less"),
-            };
-            caution(&format!("{file}: interpolated to the values of `{name}` of the first file{missing}"));
+            let text = format!("{file}: interpolated to the values of `{name}` of the first file");
+            match rows - number {
+                0 => tracing::info!("{text}"),
+                missing => {
+                    caution(&format!("{text}; it has none at {missing} of {rows}, which count with one repeat less"))
+                }
+            }
         }
         let comments = other.text.lines().filter(|line| line.trim_start().starts_with('#'));
         self.text.extend(comments.flat_map(|line| ["\n", line]));

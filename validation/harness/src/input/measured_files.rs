@@ -23,6 +23,7 @@ pub enum MeasuredFiles {
         /// A file for each repeat.
         files: Vec<PathBuf>,
         /// Heading with its unit of each column that is meant, by the name of what is simulated.
+        #[serde(default)]
         #[schemars(with = "BTreeMap<String, serde_json::Value>")]
         columns: BTreeMap<String, toml::Value>,
     },
@@ -59,7 +60,7 @@ pub fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Resu
             let (bare, unit) = name_and_unit(text).unwrap_or_default();
             let is_meant = |own: &str| !unit.is_empty() && (own == text || own == bare);
             if !headings.iter().any(|own| is_meant(own)) {
-                let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
+                let rule = format!("a heading of each file with its unit: {}", headings.join(", "));
                 let first = |own: &str| own.split([' ', '(', '[']).next().unwrap_or_default().to_owned();
                 let same = headings.iter().find(|own| first(own) == first(text)).or(headings.last()).unwrap_or(&"toe");
                 let of_name = if ["t", "time"].contains(&name.as_str()) { "ms" } else { "cm" };

@@ -73,6 +73,9 @@ pub(super) fn row_remedy(row: &str, words: &[&str], columns: usize) -> String {
         [whole, part, ..] if words.len() == 2 * columns => {
             format!("write {whole}.{part} for {whole},{part}, or complete or shorten the row")
         }
+        _ if words.len() > columns && row.contains(',') => {
+            "write decimal points if commas are decimal; complete or shorten the row".to_owned()
+        }
         _ => "complete or shorten the row".to_owned(),
     }
 }
@@ -129,6 +132,6 @@ mod tests {
         assert_eq!(number_remedy("N/A"), "leave out rows with missing values");
         assert!(row_remedy("1,5,2,5", &["1", "5", "2", "5"], 2).starts_with("write 1.5 for 1,5, or"));
         assert!(row_remedy("1;2", &["1;2"], 2).starts_with("use one separator"));
-        assert_eq!(row_remedy("1,2,3", &["1", "2", "3"], 2), "complete or shorten the row");
+        assert!(row_remedy("1,2,3", &["1", "2", "3"], 2).starts_with("write decimal points if commas are decimal"));
     }
 }

@@ -14,6 +14,7 @@ use crate::evidence::{NumberColumn, in_unit};
 use crate::input::{FieldError, MeasuredFiles};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Origin, Variant};
 use crate::number::four_digits;
+use crate::output::caution;
 use place::{CurveResidual, MatchingPanel};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -173,6 +174,9 @@ impl Measurements {
     /// # Errors
     /// Axes that no figure of the case has or more than one, a curve that is not there, measurements beside every curve.
     pub fn draw(&self, result: &mut CaseResult) -> Result<(), ParameterError> {
+        if self.said.limit.is_some() && self.said.confidence == Some(Confidence::Unverified) {
+            caution(&format!("{}: unverified measurements never judge: `# limit` is left out", self.path.display()));
+        }
         let place = MatchingPanel::of(self, &result.figures)?;
         let curves = place.curves(self, &result.figures)?;
         drawing::draw(self, &place, &mut result.figures);

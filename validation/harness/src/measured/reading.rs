@@ -11,8 +11,8 @@ use std::path::Path;
 /// Keys of comments that mean something here.
 const KEYS: [&str; 6] = ["limit", "figure", "panel", "curve", "source", "confidence"];
 
-/// Repeats as own headings.
-const REPEATS: &str = "columns.front = [\"a [cm]\", \"b [cm]\"]";
+/// Forms of repeats.
+const REPEATS: &str = "columns of one name, or a list of files in the place of this one";
 
 /// Reads measurements with their uncertainties.
 pub(super) fn read(given: &MeasuredFiles, wanted: WantedColumns<'_>) -> Result<Measurements, ParameterError> {
@@ -49,7 +49,7 @@ fn measurements(all: MeasuredColumns, path: &Path, is_as_it_stands: bool) -> Res
     if uncertainty.contains(&0.0) {
         let defect = if repeats.len() == 1 { "has no uncertainty" } else { "is equal in all repeats" };
         let defect = format!("{} {defect}", heading(first));
-        let remedy = format!("add a column `uncertainty [{}]`, or give repeats: {REPEATS}", first.unit);
+        let remedy = format!("add a column `uncertainty [{}]`, or repeats: {REPEATS}", first.unit);
         return Err(FieldError::finding("columns", defect, &remedy));
     }
     let measured = NumberColumn {
@@ -88,7 +88,20 @@ fn measurements(all: MeasuredColumns, path: &Path, is_as_it_stands: bool) -> Res
 fn said(text: &str) -> Result<Said, FieldError> {
     let mut said = Said::default();
     for line in text.lines().filter_map(|line| line.trim_start().strip_prefix('#')) {
-        let Some((key, value)) = line.split_once(':') else { continue };
+        let Some((key, value)) = line.split_once(':') else {
+            // a limit in another form must not vanish either
+            let number =
+                |rest: &str| rest.trim_start_matches([' ', '=', '\t']).starts_with(|c: char| c.is_ascii_digit());
+            if line.trim().to_lowercase().strip_prefix("limit").is_some_and(number) {
+                return Err(FieldError::new(
+                    "# limit",
+                    line.trim(),
+                    "followed by a colon",
+                    "write `# limit: 2`, in standard uncertainties",
+                ));
+            }
+            continue;
+        };
         let (key, value) = (key.trim().to_lowercase(), value.trim().to_owned());
         if value.is_empty() {
             continue;

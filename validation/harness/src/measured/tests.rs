@@ -2,6 +2,7 @@ use super::*;
 use crate::case::Tier;
 use crate::figure::{Axis, Band, Figure, Mark, Panel};
 use crate::metric::Verdict;
+use std::collections::BTreeMap;
 
 const TABLE: &str = "# source: own flume\nt [ms],front [cm],uncertainty [mm]\n100,20,10\n200,40,10\n";
 
@@ -237,7 +238,7 @@ fn invalid_measurements_are_refused() {
     for (text, message) in [
         (
             "t [s],front [m]\n1,1\n",
-            "mine.csv: `columns`: front [m] has no uncertainty; add a column `uncertainty [m]`, or give repeats: columns.front = [\"a [cm]\", \"b [cm]\"]",
+            "mine.csv: `columns`: front [m] has no uncertainty; add a column `uncertainty [m]`, or repeats: columns of one name, or a list of files in the place of this one",
         ),
         (
             "t,front [m],uncertainty [m]\n1,1,1\n",
@@ -262,6 +263,10 @@ fn invalid_measurements_are_refused() {
         (
             "# limit: much\nt [s],front [m],uncertainty [m]\n1,1,1\n",
             "mine.csv: `# limit` is much, but must be a positive number; give it in standard uncertainties, such as 2",
+        ),
+        (
+            "# Limit = 2\nt [s],front [m],uncertainty [m]\n1,1,1\n",
+            "mine.csv: `# limit` is Limit = 2, but must be followed by a colon; write `# limit: 2`, in standard uncertainties",
         ),
         (
             "# limt: 2\nt [s],front [m],uncertainty [m]\n1,1,1\n",
@@ -339,7 +344,7 @@ fn columns_are_found_by_their_names_or_by_those_that_a_plan_gives() {
     let refused = |columns: &str| read_of(&[text], columns, wanted).expect_err("refused");
     assert!(
         refused("front = \"to [cm]\"")
-            .contains("`columns.front` is \"to [cm]\", but must be a heading of the file with its unit: toe, time")
+            .contains("`columns.front` is \"to [cm]\", but must be a heading of each file with its unit: toe, time")
     );
     assert!(refused("front = \"toe\"").ends_with("such as front = \"toe [cm]\""));
     let stated = ["toe (cm);t [s]\n10;1\n"];
@@ -404,6 +409,9 @@ fn repeats_count_where_they_have_a_value_and_all_their_comments_do() {
     let read =
         |files: &[PathBuf]| Measurements::read(&MeasuredFiles::Repeats(files.to_vec()), WantedColumns::default());
     let own = read(&files).expect("repeats");
+    let named = MeasuredFiles::Named { files: files.clone(), columns: BTreeMap::new() };
+    let named = Measurements::read(&named, WantedColumns::default()).expect("files without names for their columns");
+    assert_eq!((named.repeats, named.measured), (own.repeats, own.measured.clone()));
     assert_eq!((own.said.limit, own.said.confidence), (Some(2.0), Some(Confidence::Unverified)));
     let points = own.in_units("s", "m").expect("the same units");
     let expected = [(0.1, 0.32), (0.2, 0.52), (0.3, 0.71)];

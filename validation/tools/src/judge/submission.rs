@@ -162,6 +162,12 @@ impl Submission {
         {
             *origin = Some(Origin::File(self.path.clone()));
         }
+        if let ParameterError::Field(error) = &mut error
+            && self.base.is_none()
+            && self.own.is_empty()
+        {
+            error.remedy = format!("name the file of the {} by `base`, or give its fields in `with`", self.case).into();
+        }
         error
     }
 

@@ -19,7 +19,7 @@ pub const FRICTION: &str = "friction";
 /// A predicted quantity with the values of the grains.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GrainComparison {
-    /// `discs` or `spheres`.
+    /// `discs` or `spheres`, or the code that ran discs.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub grains: String,
     /// `local` or `nonlocal` friction.
@@ -32,7 +32,7 @@ pub struct GrainComparison {
     pub aspect_ratio: Option<f64>,
     /// Name of the quantity; lengths are over the half width but for the front's way down an incline `[m]`.
     pub quantity: String,
-    /// Predicted value, written before the measurement was known.
+    /// Predicted value; that of the blind study was written before the measurement was known.
     pub value: f64,
     /// Standard uncertainty from the friction that was measured.
     pub u_input: f64,
@@ -120,6 +120,9 @@ impl GrainComparison {
     }
 }
 
+/// Rows of [`FRICTION`] to which its law was fitted.
+const FITTED: &str = "LAMMPS, slope";
+
 /// A study with its rows, as pages show it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Study {
@@ -154,7 +157,13 @@ pub fn studies(league: &Path) -> Result<Vec<Study>, ToolError> {
         rows: table(&read(league, BLIND)?).into_iter().map(Vec::from).collect(),
     };
     // intervals and a nonlocal law are those of collapses
-    let own = |row: &[String; 9]| [0, 2, 3, 5, 6, 7].map(|k| row[k].clone()).to_vec();
+    let own = |row: &[String; 9]| {
+        let mut cells = [0, 2, 3, 5, 6, 7].map(|k| row[k].clone()).to_vec();
+        if cells[0].starts_with(FITTED) {
+            cells[5] = "fitted".to_owned();
+        }
+        cells
+    };
     let friction = Study {
         name: FRICTION,
         title: "Friction of the same discs in two codes and two geometries",

@@ -215,7 +215,7 @@ mod tests {
     #[test]
     fn measurements_are_files_beside_it() {
         let read = |text: &str| CaseFile::parse(Path::new("mine/case.toml"), text);
-        let file = read("case = \"film\"\noverlay = [\"a.csv\", \"/b.csv\"]").expect("a case file");
+        let file = read("case = \"film\"\noverlay = [\"a.csv\", { files = [\"/b.csv\"] }]").expect("a case file");
         let files: Vec<&PathBuf> = file.overlay.iter().flat_map(MeasuredFiles::files).collect();
         assert_eq!(files, [Path::new("mine/a.csv"), Path::new("/b.csv")]);
         assert!(file.fields.is_empty());
