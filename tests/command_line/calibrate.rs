@@ -252,8 +252,8 @@ fn wrong_data_are_refused_by_name() {
     );
     assert_eq!(
         data(",uncertainty [m/s]", ",weight"),
-        "error: mine.csv: `columns`: u [m/s] has no uncertainty; add a column `uncertainty [m/s]`, or give repeats: \
-         columns.front = [\"a [cm]\", \"b [cm]\"]"
+        "error: mine.csv: `columns`: u [m/s] has no uncertainty; add a column `uncertainty [m/s]`, or repeats: \
+         columns of one name, or a list of files in the place of this one"
     );
     assert_eq!(
         data("y [m],", "z [m],"),
