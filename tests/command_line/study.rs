@@ -47,8 +47,11 @@ fn a_limit_beyond_that_of_the_measurements_is_refused() {
     let place = place();
     place.file("front.csv", &format!("# limit: 2\n{AHEAD}"));
     let study = |limit: &str| STUDY.replace("distance = \"mean\"\nat_most = 0.0", limit);
-    let message = refused(&place, &study("at_most = 3.0"));
-    assert!(message.contains("at_most` is 3, but must be at most 2, the `# limit` of the measurements"), "{message}");
+    for (limit, said) in [("at_most = 3.0", "at_most` is 3"), ("at_least = 0.0", "at_least` is 0")] {
+        let message = refused(&place, &study(limit));
+        let rule = format!("{said}, but must be no looser than 2, the `# limit` of the measurements");
+        assert!(message.contains(&rule), "{message}");
+    }
     place.file("study.toml", &study("at_most = 1.5"));
     place.run(&["study.toml"]).code(1);
 }

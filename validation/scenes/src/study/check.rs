@@ -74,8 +74,13 @@ impl StudyCheck {
         let (limit, reason) = match (limit(text)?, stated.filter(|_| is_residual).and_then(Measurements::limit)) {
             ((None, _), Some((limit, reason))) => (Some(limit), reason),
             ((Some(own), _), Some((Limit::AtMost(theirs), _))) if upper(own) > theirs => {
-                let rule = format!("at most {theirs}, the `# limit` of the measurements");
-                return Err(FieldError::new("at_most", upper(own), &rule, "leave one of the two out"));
+                let (field, bound) = match own {
+                    Limit::AtMost(bound) => ("at_most", bound),
+                    Limit::AtLeast(bound) => ("at_least", bound),
+                    Limit::Within(_, bound) => ("within", bound),
+                };
+                let rule = format!("no looser than {theirs}, the `# limit` of the measurements");
+                return Err(FieldError::new(field, bound, &rule, "leave one of the two out"));
             }
             (own, _) => own,
         };
